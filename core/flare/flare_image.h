@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "core/flare/spectrum.h"
+#include "core/ghosts/ghost_path.h"
+#include "core/optics/prescription.h"
+#include "core/optics/trace.h"
+
+namespace ghostlight {
+
+/// What to draw, and how finely. The direct image is not part of the ghost layer.
+struct FlareRequest {
+    LightDirection light;
+    Spectrum spectrum = Monochromatic{};
+    int width_px = 1280;  ///< the height follows from the sensor's shape
+    int grid = 32;        ///< cells across each ghost's pupil
+    int spectral_samples = 5;             ///< used when the light is not of one wavelength
+    std::vector<GhostPath> highlighted;   ///< these ghosts also go into FlareImage::highlight
+    unsigned threads = 0;
+};
+
+/// Wall time of the parts of a picture, ms.
+struct FlareTimes {
+    double bounds_ms = 0.0, trace_ms = 0.0, raster_ms = 0.0, total_ms = 0.0;
+};
+
+/// Irradiance / E0 on the sensor. Row 0 is the lowest y, column 0 the lowest x, as seen on the
+/// sensor plane (data are never flipped); upright_* converts to a camera picture.
+struct FlareImage {
+    int width_px = 0, height_px = 0;
+    double sensor_width_mm = 36.0, sensor_height_mm = 24.0;
+    std::vector<float> rgb;        ///< 3 per pixel, linear Rec.709, the light itself is (1, 1, 1)
+    std::vector<float> irradiance; ///< 1 per pixel: mean over the pixel, per E0
+    std::vector<float> highlight;  ///< 1 per pixel: irradiance of the highlighted ghosts; empty if none asked
+    double flux_mm2 = 0.0;         ///< of all ghosts together, on the whole sensor plane
+    double flux_on_sensor_mm2 = 0.0;
+    std::size_t ghosts = 0, rays = 0, cells = 0;
+    FlareTimes times;
+};
+
+/// Traces every two-reflection ghost in uniform bundles and accumulates them with exact pixel
+/// coverage, so that flux is conserved and folded sheets add. The polarised flux of each ghost is
+/// carried exactly. Bit-identical for any number of threads. Returns nothing when stopped.
+std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequest& request,
+                                       std::stop_token stop = {});
+
+/// Turns sensor data into an upright camera picture with row 0 at the top: the sensor seen from
+/// behind and rotated by 180°, so that the picture's right is −x and its top is −y. In memory that
+/// is a mirror image left to right. `channels` floats per pixel.
+std::vector<float> upright_picture(const std::vector<float>& data, int width_px, int height_px,
+                                   int channels);
+
+}  // namespace ghostlight

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/optics/optical_system.h"
+
+namespace ghostlight {
+
+/// The surfaces where the light turns, in order, by row from 0; the direct image is the empty
+/// path. An even number of reflections, alternately back and forth: {i, j} with i > j.
+struct GhostPath {
+    std::vector<std::size_t> reflections;
+    bool is_direct() const { return reflections.empty(); }
+    bool operator==(const GhostPath&) const = default;
+    auto operator<=>(const GhostPath&) const = default;
+};
+
+/// "5-3", rows counted from 1; "direct" for the empty path.
+std::string name(const GhostPath& path);
+
+/// The reverse of name(). Throws Error saying what is wrong with the text for this lens.
+GhostPath parse_ghost(std::string_view text, const OpticalSystem& system);
+
+/// All two-reflection ghosts: pairs i > j of the surfaces that reflect, n(n−1)/2 of them.
+std::vector<GhostPath> two_reflection_ghosts(const OpticalSystem& system);
+
+}  // namespace ghostlight

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/ghosts/ghost_path.h"
+#include "core/optics/optical_system.h"
+
+namespace ghostlight {
+
+/// Acts on (y, u), u = dy/ds along the direction of travel: y' = a y + b u, u' = c y + d u.
+struct RayMatrix {
+    double a = 1.0, b = 0.0, c = 0.0, d = 1.0;
+    bool operator==(const RayMatrix&) const = default;
+};
+/// `later` after `earlier`.
+RayMatrix operator*(const RayMatrix& later, const RayMatrix& earlier);
+
+/// First-order data of the direct path, lengths in mm, for an object at infinity. Values that do
+/// not exist (an afocal lens, a telecentric pupil) are infinite.
+struct FirstOrder {
+    double efl_mm = 0.0;
+    double bfd_mm = 0.0;  ///< last vertex to the rear focus
+    double ffd_mm = 0.0;  ///< first vertex to the front focus, signed
+    double f_number = 0.0;
+    double entrance_pupil_z_mm = 0.0;  ///< from the first vertex
+    double entrance_pupil_radius_mm = 0.0;
+    double exit_pupil_z_mm = 0.0;  ///< from the last vertex
+    double exit_pupil_radius_mm = 0.0;
+    double sensor_distance_mm = 0.0;    ///< last vertex to the sensor
+    double paraxial_defocus_mm = 0.0;   ///< sensor − focus
+};
+FirstOrder first_order(const OpticalSystem& system);
+
+/// A ghost to first order (Lee and Eisemann 2013). M_a takes the first vertex's tangent plane to
+/// the first crossing of the stop, M_s the last crossing to the sensor.
+struct ParaxialGhost {
+    RayMatrix to_sensor;                ///< first vertex → sensor
+    RayMatrix to_stop;                  ///< M_a
+    RayMatrix stop_to_sensor;           ///< M_s
+    double focus_from_sensor_mm = 0.0;  ///< where a collimated beam meets; negative before the sensor
+    double magnification = 0.0;         ///< of the stop on the sensor: y_sensor / y_stop, collimated
+    double diameter_mm = 0.0;           ///< on the sensor, all surfaces limiting
+    double fresnel_number = 0.0;        ///< a²|M|/(λ|B|) from the last stop crossing on (Collins)
+    double entrance_semi_diameter_mm = 0.0;  ///< of the collimated beam that passes everywhere
+    int stop_crossings = 0;
+};
+ParaxialGhost paraxial_ghost(const OpticalSystem& system, const GhostPath& path);
+
+}  // namespace ghostlight

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/optics/coating.h"
+#include "core/optics/glass.h"
+
+namespace ghostlight {
+
+/// Fields of a file that this version does not know, kept as they were: name → JSON text.
+using UnknownFields = std::map<std::string, std::string>;
+
+struct Plane {
+    bool operator==(const Plane&) const = default;
+};
+/// Positive when the centre of curvature lies towards the sensor.
+struct Radius {
+    double mm = 0.0;
+    bool operator==(const Radius&) const = default;
+};
+struct Curvature {
+    double per_mm = 0.0;
+    bool operator==(const Curvature&) const = default;
+};
+/// A surface's base curve, as its author gave it.
+using BaseCurve = std::variant<Plane, Radius, Curvature>;
+
+double curvature_per_mm(const BaseCurve& curve);
+
+/// One row of the prescription: a surface and what follows it.
+struct Surface {
+    BaseCurve curve = Plane{};
+    double conic = 0.0;                ///< conic constant k; 0 = sphere, −1 = paraboloid
+    std::vector<double> aspheric;      ///< A4, A6, A8, …: sag terms in mm^(1−power)
+    double thickness_mm = 0.0;         ///< to the next vertex; the last one to the sensor
+    Medium medium_after;               ///< air by default
+    double semi_diameter_mm = 10.0;    ///< clear radius; of the stop's row, its listed radius
+    Coating coating = Uncoated{};
+    std::string comment;
+    UnknownFields unknown;
+    bool operator==(const Surface&) const = default;
+};
+
+/// The aperture stop: which row, how far it is closed, and its blades.
+struct Stop {
+    std::size_t surface = 0;                 ///< row, from 0
+    std::optional<double> f_number;          ///< wins over semi_diameter_mm; capped by the row's
+    std::optional<double> semi_diameter_mm;  ///< none = the row's own
+    int blades = 0;                          ///< 0 = round, else 3 or more
+    double rotation_deg = 0.0;
+    double blade_curvature = 0.0;  ///< 0 = straight edges, 1 = the full circle
+    UnknownFields unknown;
+    bool operator==(const Stop&) const = default;
+};
+
+struct Sensor {
+    double width_mm = 36.0;
+    double height_mm = 24.0;
+    bool at_paraxial_focus = false;  ///< else at the last surface's thickness
+    UnknownFields unknown;
+    bool operator==(const Sensor&) const = default;
+};
+
+/// A zoom or focus position: what it overrides.
+struct Configuration {
+    std::string name;
+    std::map<std::size_t, double> thickness_mm;  ///< row from 0 → thickness
+    std::optional<double> f_number;
+    UnknownFields unknown;
+    bool operator==(const Configuration&) const = default;
+};
+
+/// What the source states; not used in any computation.
+struct Published {
+    std::optional<double> efl_mm, f_number, bfd_mm, half_field_deg;
+    UnknownFields unknown;
+    bool operator==(const Published&) const = default;
+};
+
+/// A lens, as a person edits it and as a file holds it.
+struct Prescription {
+    std::string name;
+    std::string source;
+    std::string notes;
+    Published published;
+    std::vector<Surface> surfaces;
+    Stop stop;
+    Sensor sensor;
+    std::vector<Configuration> configurations;
+    UnknownFields unknown;
+    bool operator==(const Prescription&) const = default;
+};
+
+/// Throws Error naming the field if the lens cannot be traced as it stands (no surface, stop row
+/// out of range, a semi-diameter that is not positive, a number that is not finite, …).
+void validate(const Prescription& lens);
+
+/// The lens in one of its positions: the configuration's values written into the rows, and no
+/// configurations left. An empty name is the lens as listed. Throws Error naming the known ones.
+Prescription configured(const Prescription& lens, std::string_view configuration);
+
+/// Writes one coating on every surface with air on exactly one side, and none on the others.
+Prescription with_air_coating(const Prescription& lens, const Coating& coating);
+
+/// Medium in front of a row (air before the first).
+const Medium& medium_before(const Prescription& lens, std::size_t row);
+
+}  // namespace ghostlight
