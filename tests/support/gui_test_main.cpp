@@ -1,0 +1,25 @@
+// main() of the GUI tests: one QApplication for all of them, and settings kept away from the user's.
+
+#include <gtest/gtest.h>
+
+#include <QApplication>
+#include <QSettings>
+#include <QStandardPaths>
+#include <QTemporaryDir>
+
+int main(int argc, char** argv) {
+    testing::InitGoogleTest(&argc, argv);
+    if (GTEST_FLAG_GET(list_tests)) {
+        return RUN_ALL_TESTS();  // needs no display
+    }
+
+    const QTemporaryDir settings;
+    QStandardPaths::setTestModeEnabled(true);
+    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, settings.path());
+    QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, settings.path());
+
+    QApplication application(argc, argv);
+    QApplication::setApplicationName("ghostlight-tests");
+    QApplication::setOrganizationName("ghostlight-tests");
+    return RUN_ALL_TESTS();
+}
