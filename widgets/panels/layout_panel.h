@@ -1,0 +1,50 @@
+#pragma once
+
+#include <QImage>
+#include <QWidget>
+
+#include <vector>
+
+#include "core/ghosts/ghost_path.h"
+#include "core/optics/prescription.h"
+#include "core/optics/trace.h"
+
+namespace ghostlight {
+
+class LayoutView;
+class PanelHeader;
+
+/// The lens in its meridional section, with the direct rays and those of the selected ghosts.
+/// Because the lens is rotationally symmetric, the drawing's plane is always the light's own
+/// meridional plane, whatever its azimuth.
+class LayoutPanel : public QWidget {
+    Q_OBJECT
+   public:
+    explicit LayoutPanel(QWidget* parent = nullptr);
+    ~LayoutPanel() override;
+
+    /// Shows a lens in one of its positions (no configurations left in it). Keeps the view unless
+    /// the lens is the first one or has another name. A lens that cannot be compiled is drawn
+    /// without rays, and the header says why.
+    void show_lens(const Prescription& configured, const LightDirection& light,
+                   double wavelength_nm, const std::vector<GhostPath>& selected);
+    /// Shows the empty state.
+    void clear();
+    /// Brings the whole lens, from the incoming rays to the sensor, into view.
+    void fit();
+    /// What the view shows, in device pixels; null if it cannot be drawn.
+    QImage grab_view();
+
+   Q_SIGNALS:
+    /// Row from 1 under the cursor, 0 when there is none.
+    void surface_hovered(int row);
+
+   private:
+    void show_state();
+
+    PanelHeader* header_ = nullptr;
+    LayoutView* view_ = nullptr;
+    int hovered_row_ = 0;
+};
+
+}  // namespace ghostlight
