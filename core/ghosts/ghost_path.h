@@ -24,6 +24,15 @@ std::string name(const GhostPath& path);
 /// The reverse of name(). Throws Error saying what is wrong with the text for this lens.
 GhostPath parse_ghost(std::string_view text, const OpticalSystem& system);
 
+/// One meeting of the light with a surface on its way to the sensor.
+struct PathEvent {
+    std::size_t surface = 0;
+    bool reflects = false;
+    bool forward = true;  ///< direction of travel before the event: towards the sensor
+};
+/// Every meeting, in order, from the first surface to the last.
+std::vector<PathEvent> events(const GhostPath& path, std::size_t surface_count);
+
 /// All two-reflection ghosts: pairs i > j of the surfaces that reflect, n(n−1)/2 of them.
 std::vector<GhostPath> two_reflection_ghosts(const OpticalSystem& system);
 

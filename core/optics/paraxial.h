@@ -38,7 +38,7 @@ struct ParaxialGhost {
     RayMatrix to_stop;                  ///< M_a
     RayMatrix stop_to_sensor;           ///< M_s
     double focus_from_sensor_mm = 0.0;  ///< where a collimated beam meets; negative before the sensor
-    double magnification = 0.0;         ///< of the stop on the sensor: y_sensor / y_stop, collimated
+    double magnification = 0.0;         ///< y_sensor over y at the first stop crossing, collimated
     double diameter_mm = 0.0;           ///< on the sensor, all surfaces limiting
     double fresnel_number = 0.0;        ///< a²|M|/(λ|B|) from the last stop crossing on (Collins)
     double entrance_semi_diameter_mm = 0.0;  ///< of the collimated beam that passes everywhere

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cmath>
+#include <experimental/simd>
+#include <type_traits>
+
+// One source serves double, ceres::Jet and SIMD lanes. Code that is compiled once per instruction
+// set lives in an inline namespace of that set's name, so that the linker can never hand a
+// function built for a newer processor to an older one.
+#ifndef GHOSTLIGHT_ISA
+#define GHOSTLIGHT_ISA portable
+#endif
+
+namespace ghostlight {
+inline namespace GHOSTLIGHT_ISA {
+
+namespace stdx = std::experimental;
+
+template <class V>
+inline constexpr bool is_lanes = stdx::is_simd_v<V>;
+
+/// The type of one lane.
+template <class V, bool = is_lanes<V>>
+struct LaneOf {
+    using type = V;
+};
+template <class V>
+struct LaneOf<V, true> {
+    using type = typename V::value_type;
+};
+template <class V>
+using Lane = typename LaneOf<V>::type;
+
+template <class V>
+inline constexpr bool is_single_precision = std::is_same_v<Lane<V>, float>;
+
+template <class V>
+V select(bool condition, const V& yes, const V& no) {
+    return condition ? yes : no;
+}
+template <class T, class A>
+stdx::simd<T, A> select(const stdx::simd_mask<T, A>& condition, const stdx::simd<T, A>& yes,
+                        const stdx::simd<T, A>& no) {
+    stdx::simd<T, A> result = no;
+    stdx::where(condition, result) = yes;
+    return result;
+}
+
+inline bool any(bool condition) { return condition; }
+template <class T, class A>
+bool any(const stdx::simd_mask<T, A>& condition) {
+    return stdx::any_of(condition);
+}
+
+template <class V>
+V smaller(const V& a, const V& b) {
+    return select(b < a, b, a);
+}
+template <class V>
+V larger(const V& a, const V& b) {
+    return select(a < b, b, a);
+}
+
+/// Square root that is 0 for negative arguments.
+template <class V>
+V sqrt_or_zero(const V& x) {
+    using std::sqrt;
+    return sqrt(larger(x, V(Lane<V>(0))));
+}
+
+}  // namespace GHOSTLIGHT_ISA
+}  // namespace ghostlight

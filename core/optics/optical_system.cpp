@@ -1,0 +1,93 @@
+#include "core/optics/optical_system.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/optics/paraxial.h"
+#include "core/units.h"
+
+namespace ghostlight {
+namespace {
+
+OpticalSystem as_listed(const Prescription& lens, double wavelength_nm) {
+    OpticalSystem system;
+    system.wavelength_nm = wavelength_nm;
+    system.stop = lens.stop.surface;
+    double z = 0.0;
+    for (std::size_t row = 0; row < lens.surfaces.size(); ++row) {
+        const Surface& surface = lens.surfaces[row];
+        SurfaceAt at;
+        at.curvature_per_mm = curvature_per_mm(surface.curve);
+        at.conic = surface.conic;
+        at.aspheric = surface.aspheric;
+        while (!at.aspheric.empty() && at.aspheric.back() == 0.0) at.aspheric.pop_back();
+        at.vertex_z_mm = z;
+        at.semi_diameter_mm = surface.semi_diameter_mm;
+        at.film = film_at(surface.coating, medium_before(lens, row), surface.medium_after,
+                          wavelength_nm);
+        at.n_before = at.film.n_in;
+        at.n_after = at.film.n_out;
+        at.reflects = !is_invisible(at.film);
+        system.surfaces.push_back(std::move(at));
+        z += surface.thickness_mm;
+    }
+    system.sensor_z_mm = z;
+    system.sensor_width_mm = lens.sensor.width_mm;
+    system.sensor_height_mm = lens.sensor.height_mm;
+    const double listed = lens.surfaces[lens.stop.surface].semi_diameter_mm;
+    system.stop_mask.semi_diameter_mm = std::min(listed, lens.stop.semi_diameter_mm.value_or(listed));
+    system.stop_mask.blades = lens.stop.blades;
+    system.stop_mask.rotation_rad = rad_from_deg(lens.stop.rotation_deg);
+    system.stop_mask.blade_curvature = lens.stop.blade_curvature;
+    return system;
+}
+
+/// Height at the stop of the collimated beam that fills EFL/N.
+double stop_semi_diameter_mm(const OpticalSystem& at_d, double f_number) {
+    const FirstOrder order = first_order(at_d);
+    if (!std::isfinite(order.efl_mm))
+        throw Error({.problem = "an f-number needs a focal length, and this lens has none",
+                     .file = {},
+                     .where = "stop.f_number",
+                     .found = fmt::format("f/{}", f_number),
+                     .expected = "a stop semi-diameter in mm instead"});
+    const double entrance_radius = std::abs(order.efl_mm) / (2.0 * f_number);
+    return at_d.stop_mask.semi_diameter_mm * entrance_radius / order.entrance_pupil_radius_mm;
+}
+
+}  // namespace
+
+OpticalSystem compile(const Prescription& lens, double wavelength_nm,
+                      std::string_view configuration) {
+    validate(lens);
+    const Prescription position = configured(lens, configuration);
+    OpticalSystem system = as_listed(position, wavelength_nm);
+    const bool needs_first_order = position.sensor.at_paraxial_focus || position.stop.f_number;
+    if (!needs_first_order) return system;
+
+    OpticalSystem at_d = as_listed(position, d_line_nm);
+    if (position.stop.f_number) {
+        const std::size_t stop = position.stop.surface;
+        const double listed = position.surfaces[stop].semi_diameter_mm;
+        at_d.stop_mask.semi_diameter_mm = listed;
+        system.stop_mask.semi_diameter_mm =
+            std::min(listed, stop_semi_diameter_mm(at_d, *position.stop.f_number));
+    }
+    if (position.sensor.at_paraxial_focus) {
+        const double bfd = first_order(at_d).bfd_mm;
+        if (!std::isfinite(bfd) || bfd <= 0.0)
+            throw Error({.problem = "the sensor cannot stand at the paraxial focus: there is no "
+                                    "real one behind the lens",
+                         .file = {},
+                         .where = "sensor.distance_mm",
+                         .found = fmt::format("focus at {} mm", bfd),
+                         .expected = "a distance in mm"});
+        system.sensor_z_mm = system.surfaces.back().vertex_z_mm + bfd;
+    }
+    return system;
+}
+
+}  // namespace ghostlight

@@ -1,0 +1,140 @@
+#include "core/optics/trace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/optics/trace_steps.h"
+#include "core/units.h"
+
+namespace ghostlight {
+namespace {
+
+/// Distance inside the stop's edge over its semi-diameter: positive where it is open.
+double stop_margin(const StopMask& mask, double u_mm, double v_mm) {
+    const double a = mask.semi_diameter_mm;
+    if (mask.blades < 3) return 1.0 - std::hypot(u_mm, v_mm) / a;
+    const double half = std::numbers::pi / mask.blades;
+    double margin = 1.0;
+    for (int blade = 0; blade < mask.blades; ++blade) {
+        const double middle = mask.rotation_rad + half * (2 * blade + 1);
+        const double nx = std::cos(middle), ny = std::sin(middle);
+        double inside = a * std::cos(half) - (u_mm * nx + v_mm * ny);
+        if (mask.blade_curvature > 0.0) {
+            // An arc through the two corners, of radius a over the curvature.
+            const double radius = a / mask.blade_curvature;
+            const double back = std::sqrt(radius * radius - std::pow(a * std::sin(half), 2)) -
+                                a * std::cos(half);
+            inside = radius - std::hypot(u_mm + back * nx, v_mm + back * ny);
+        }
+        margin = std::min(margin, inside / a);
+    }
+    return margin;
+}
+
+}  // namespace
+
+BeamFrame beam_frame(const LightDirection& light) {
+    const double theta = rad_from_deg(light.field_deg);
+    const double phi = rad_from_deg(light.azimuth_deg);
+    // Exact values at the axis's quarter turns keep symmetric lenses exactly symmetric.
+    auto exact = [](double x) { return std::abs(x) < 1e-16 ? 0.0 : x; };
+    const double cos_phi = exact(std::cos(phi)), sin_phi = exact(std::sin(phi));
+    const double cos_theta = exact(std::cos(theta)), sin_theta = exact(std::sin(theta));
+    BeamFrame frame;
+    frame.direction = {sin_theta * cos_phi, sin_theta * sin_phi, cos_theta};
+    frame.e1 = {sin_phi, -cos_phi, 0.0};
+    frame.e2 = cross(frame.direction, frame.e1);
+    return frame;
+}
+
+std::string to_string(const RayStatus& status) {
+    const std::string at = ":" + std::to_string(status.surface + 1);
+    switch (status.fate) {
+        case RayFate::ok: return "ok";
+        case RayFate::miss: return "miss" + at;
+        case RayFate::tir: return "tir" + at;
+        case RayFate::turned: return "turned" + at;
+        case RayFate::clipped: return "clipped" + at;
+        case RayFate::stop: return "stop" + at;
+    }
+    return "ok";
+}
+
+bool stop_passes(const StopMask& mask, double u_mm, double v_mm) {
+    return stop_margin(mask, u_mm, v_mm) >= 0.0;
+}
+
+Ray ray_at_entrance(const LightDirection& light, double px_mm, double py_mm) {
+    return {{px_mm, py_mm, 0.0}, beam_frame(light).direction};
+}
+
+TracedRay trace_ray(const OpticalSystem& system, const GhostPath& ghost, const Ray& ray) {
+    const TracePath<double> path = trace_path<double>(system, ghost);
+    TracedRay result;
+    RayAt<double> at{ray.origin, ray.direction};
+    const double across = std::hypot(ray.direction.x, ray.direction.y);
+    const glm::dvec3 e1 = across > 0.0
+                              ? glm::dvec3(ray.direction.y / across, -ray.direction.x / across, 0.0)
+                              : glm::dvec3(1.0, 0.0, 0.0);
+    JonesState<double> jones = jones_start<double>(e1);
+    double average = 1.0;
+    auto fail = [&](RayFate fate, std::size_t surface) {
+        result.status = {fate, surface};
+        return result;
+    };
+    auto clip = [&](RayFate fate, std::size_t surface) {
+        if (result.status.fate == RayFate::ok) result.status = {fate, surface};
+    };
+    for (const TraceStep<double>& step : path.steps) {
+        const std::size_t surface = static_cast<std::size_t>(step.surface);
+        const Meeting<double> meeting = meet(step, path.aspheric.data(), at);
+        if (!(meeting.turned_margin >= 0.0)) return fail(RayFate::turned, surface);
+        if (!(meeting.miss_margin >= 0.0)) return fail(RayFate::miss, surface);
+        const double r = std::hypot(at.position.x, at.position.y);
+        RayHit hit{.surface = surface,
+                   .point = at.position,
+                   .cos_incidence = meeting.cos_incidence,
+                   .reflected = step.reflects};
+        hit.point.z += system.surfaces[surface].vertex_z_mm;
+        if (step.at_stop) {
+            result.stop_point = {at.position.x, at.position.y};
+            hit.r_rel = r / system.stop_mask.semi_diameter_mm;
+            if (!stop_passes(system.stop_mask, at.position.x, at.position.y))
+                clip(RayFate::stop, surface);
+        } else {
+            hit.r_rel = r * step.inverse_clear;
+            result.r_rel = std::max(result.r_rel, hit.r_rel);
+            if (hit.r_rel > 1.0) clip(RayFate::clipped, surface);
+        }
+        if (!(meeting.hemisphere_margin > 0.0)) clip(RayFate::clipped, surface);
+        const glm::dvec3 before = at.direction;
+        if (turn(step, meeting, at) < 0.0) {
+            result.hits.push_back(hit);
+            return fail(RayFate::tir, surface);
+        }
+        if (!step.invisible) {
+            const auto film = amplitudes(step, path.layers.data(), meeting.cos_incidence);
+            apply(film, step.reflects, meeting, before, jones);
+            average *= step.reflects ? 0.5 * (norm(film.r_s) + norm(film.r_p))
+                                     : 0.5 * (norm(film.t_s) + norm(film.t_p));
+        } else if (step.reflects) {
+            average = 0.0;
+            jones = {};
+        }
+        hit.intensity = 0.5 * (jones.intensity(0) + jones.intensity(1));
+        result.hits.push_back(hit);
+    }
+    if (!(at.direction.z > 0.0)) return fail(RayFate::turned, system.surfaces.size());
+    at.position.z += path.sensor_gap_mm;
+    result.sensor_point = along(at.position, at.direction, -at.position.z / at.direction.z);
+    result.sensor_point.z = system.sensor_z_mm;
+    result.direction = at.direction;
+    result.weight_s = jones.intensity(0);
+    result.weight_p = jones.intensity(1);
+    result.weight = 0.5 * (result.weight_s + result.weight_p);
+    result.weight_average = average;
+    return result;
+}
+
+}  // namespace ghostlight

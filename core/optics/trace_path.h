@@ -1,0 +1,73 @@
+#pragma once
+
+#include <numbers>
+#include <vector>
+
+#include "core/ghosts/ghost_path.h"
+#include "core/optics/optical_system.h"
+#include "core/optics/thin_film.h"
+
+namespace ghostlight {
+
+/// One event of a path, flattened: all that the trace needs, on the scalar T.
+template <class T>
+struct TraceStep {
+    T gap_mm;           ///< previous vertex z minus this one's: added to the ray's z
+    T curvature, conic;
+    T inverse_clear;    ///< 1 / semi-diameter
+    T n_in, n_out;      ///< along travel; n_out is the far side's also where the ray reflects
+    T sense;            ///< nominal direction of travel before the event, ±1
+    int first_aspheric, aspheric_count;
+    int first_layer, layer_count;
+    int surface;
+    bool reflects, at_stop, absorbing, invisible;
+};
+
+/// A lens unfolded along one path, ready to trace.
+template <class T>
+struct TracePath {
+    std::vector<TraceStep<T>> steps;
+    std::vector<T> aspheric;  ///< coefficients A4, A6, … of all aspheric steps
+    std::vector<LayerAt<T>> layers;
+    T sensor_gap_mm{};        ///< last vertex z minus the sensor's
+    int stop_crossings = 0;
+};
+
+template <class T>
+TracePath<T> trace_path(const OpticalSystem& system, const GhostPath& ghost) {
+    TracePath<T> path;
+    double z = 0.0;
+    for (const PathEvent& event : events(ghost, system.surfaces.size())) {
+        const SurfaceAt& surface = system.surfaces[event.surface];
+        const Film film = event.forward ? surface.film : reversed(surface.film);
+        TraceStep<T> step{};
+        step.gap_mm = T(z - surface.vertex_z_mm);
+        z = surface.vertex_z_mm;
+        step.curvature = T(surface.curvature_per_mm);
+        step.conic = T(surface.conic);
+        step.inverse_clear = T(1.0 / surface.semi_diameter_mm);
+        step.n_in = T(film.n_in);
+        step.n_out = T(film.n_out);
+        step.sense = T(event.forward ? 1.0 : -1.0);
+        step.first_aspheric = static_cast<int>(path.aspheric.size());
+        step.aspheric_count = static_cast<int>(surface.aspheric.size());
+        for (const double a : surface.aspheric) path.aspheric.push_back(T(a));
+        step.first_layer = static_cast<int>(path.layers.size());
+        step.layer_count = static_cast<int>(film.layers.size());
+        for (const FilmLayer& layer : film.layers)
+            path.layers.push_back(
+                {T(layer.n * layer.n - layer.k * layer.k), T(2.0 * layer.n * layer.k),
+                 T(2.0 * std::numbers::pi / film.wavelength_nm * layer.thickness_nm)});
+        step.surface = static_cast<int>(event.surface);
+        step.reflects = event.reflects;
+        step.at_stop = event.surface == system.stop;
+        if (step.at_stop) ++path.stop_crossings;
+        step.absorbing = is_absorbing(film);
+        step.invisible = is_invisible(film);
+        path.steps.push_back(step);
+    }
+    path.sensor_gap_mm = T(z - system.sensor_z_mm);
+    return path;
+}
+
+}  // namespace ghostlight

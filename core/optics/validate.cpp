@@ -1,0 +1,199 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+#include "core/error.h"
+#include "core/optics/prescription.h"
+
+namespace ghostlight {
+namespace {
+
+// Bounds on what can be meant: beyond them a number is a slip of units or of a digit, and the
+// squares that tracing takes of it would lose the lens in rounding.
+constexpr double largest_length_mm = 1e6;
+constexpr double smallest_radius_mm = 1e-6;
+constexpr double largest_index = 10.0;
+constexpr double largest_conic = 1e9;
+constexpr std::size_t most_surfaces = 1000;
+constexpr std::size_t most_aspheric_terms = 20;
+
+[[noreturn]] void refuse(const std::string& where, std::string_view problem, std::string found,
+                         std::string_view expected) {
+    throw Error({.problem = std::string(problem),
+                 .file = {},
+                 .where = where,
+                 .found = std::move(found),
+                 .expected = std::string(expected)});
+}
+
+void require(bool fine, const std::string& where, double value, std::string_view problem,
+             std::string_view expected) {
+    if (!fine)
+        refuse(where, problem, fmt::format("{}", value), expected);
+}
+
+// Every comparison is written so that NaN fails it.
+void require_finite(const std::string& where, double value) {
+    require(std::isfinite(value), where, value, "not a finite number", "a finite number");
+}
+void require_length(const std::string& where, double value_mm) {
+    require(value_mm > 0.0 && value_mm <= largest_length_mm, where, value_mm, "not a usable length",
+            "a length above 0 and up to 1e6 mm");
+}
+void require_thickness(const std::string& where, double value_mm) {
+    require(value_mm >= 0.0 && value_mm <= largest_length_mm, where, value_mm,
+            "not a usable thickness", "0 to 1e6 mm (mirrors are not supported)");
+}
+void require_f_number(const std::string& where, double value) {
+    require(value > 0.0 && value <= 1e6, where, value, "not a usable f-number",
+            "an f-number above 0");
+}
+
+struct CheckCurve {
+    const std::string& where;
+    void operator()(const Plane&) const {}
+    void operator()(const Radius& radius) const {
+        require(std::isfinite(radius.mm) && std::abs(radius.mm) >= smallest_radius_mm,
+                where + ".radius_mm", radius.mm, "not a usable radius",
+                "a radius other than 0, or none for a plane");
+    }
+    void operator()(const Curvature& curvature) const {
+        require(std::abs(curvature.per_mm) <= 1.0 / smallest_radius_mm, where + ".curvature_per_mm",
+                curvature.per_mm, "not a usable curvature", "a finite curvature (0 is a plane)");
+    }
+};
+
+struct CheckDispersion {
+    const std::string& where;
+    double smallest_index;
+
+    void operator()(const ConstantIndex& glass) const { index(where + ".index", glass.n); }
+    void operator()(const ModelGlass& glass) const {
+        index(where + ".model.nd", glass.nd);
+        require(glass.vd > 0.0 && std::isfinite(glass.vd), where + ".model.vd", glass.vd,
+                "not a usable Abbe number", "an Abbe number above 0");
+    }
+    void operator()(const FormulaGlass& glass) const {
+        if (glass.formula < 1 || glass.formula > 6)
+            refuse(where + ".formula.number", "not a known dispersion formula",
+                   fmt::format("{}", glass.formula), "1 to 6");
+        if (glass.coefficients.empty())
+            refuse(where + ".formula.coefficients", "no coefficients", "none", "at least one");
+        for (const double c : glass.coefficients)
+            require_finite(where + ".formula.coefficients", c);
+        require_finite(where + ".formula.range_nm", glass.min_nm);
+        require(!std::isnan(glass.max_nm), where + ".formula.range_nm", glass.max_nm,
+                "not a number", "a wavelength in nm");
+    }
+    void index(const std::string& field, double n) const {
+        require(n >= smallest_index && n > 0.0 && n <= largest_index, field, n,
+                "not a usable index",
+                smallest_index > 0.0 ? "an index from 1 to 10" : "an index above 0, up to 10");
+    }
+};
+
+void check_medium(const Medium& medium, const std::string& where, double smallest_index) {
+    std::visit(CheckDispersion{where, smallest_index}, medium.dispersion);
+}
+
+struct CheckCoating {
+    const std::string& where;
+
+    void operator()(const Uncoated&) const {}
+    void operator()(const QuarterWave& coating) const {
+        const std::string field = where + ".quarter_wave";
+        require(coating.center_nm > 0.0 && std::isfinite(coating.center_nm), field + ".center_nm",
+                coating.center_nm, "not a usable wavelength", "a wavelength above 0 nm");
+        require(coating.thickness_factor >= 0.0 && std::isfinite(coating.thickness_factor),
+                field + ".thickness_factor", coating.thickness_factor,
+                "not a usable thickness factor", "0 or more (1 = nominal)");
+        if (const auto* medium = std::get_if<Medium>(&coating.layer))
+            check_medium(*medium, field + ".layer", 0.0);
+    }
+    void operator()(const LayerStack& stack) const {
+        for (std::size_t i = 0; i < stack.layers.size(); ++i) {
+            const Layer& layer = stack.layers[i];
+            const std::string field = fmt::format("{}.layers[{}]", where, i + 1);
+            check_medium(layer.medium, field, 0.0);
+            require(layer.thickness_nm >= 0.0 && std::isfinite(layer.thickness_nm),
+                    field + ".thickness_nm", layer.thickness_nm, "not a usable thickness",
+                    "0 nm or more");
+            require(layer.extinction >= 0.0 && std::isfinite(layer.extinction), field + ".k",
+                    layer.extinction, "not a usable extinction", "0 or more (0 = clear)");
+        }
+    }
+};
+
+void check_surface(const Surface& surface, const std::string& where) {
+    std::visit(CheckCurve{where}, surface.curve);
+    require(std::abs(surface.conic) <= largest_conic, where + ".conic", surface.conic,
+            "not a usable conic constant", "a finite number (0 = sphere)");
+    if (surface.aspheric.size() > most_aspheric_terms)
+        refuse(where + ".aspheric", "too many terms", fmt::format("{}", surface.aspheric.size()),
+               "at most 20 (A4 to A42)");
+    for (const double term : surface.aspheric)
+        require_finite(where + ".aspheric", term);
+    require_thickness(where + ".thickness_mm", surface.thickness_mm);
+    check_medium(surface.medium_after, where, 1.0);
+    require_length(where + ".semi_diameter_mm", surface.semi_diameter_mm);
+    std::visit(CheckCoating{where + ".coating"}, surface.coating);
+}
+
+void check_stop(const Stop& stop, std::size_t surfaces) {
+    if (stop.surface >= surfaces)
+        refuse("stop.surface", "the stop's row does not exist", fmt::format("{}", stop.surface + 1),
+               fmt::format("a row from 1 to {}", surfaces));
+    if (stop.f_number)
+        require_f_number("stop.f_number", *stop.f_number);
+    if (stop.semi_diameter_mm)
+        require_length("stop.semi_diameter_mm", *stop.semi_diameter_mm);
+    if (stop.blades < 0 || stop.blades == 1 || stop.blades == 2 || stop.blades > 1000)
+        refuse("stop.blades", "not a usable number of blades", fmt::format("{}", stop.blades),
+               "0 (round), or 3 to 1000");
+    require_finite("stop.rotation_deg", stop.rotation_deg);
+    require(stop.blade_curvature >= 0.0 && stop.blade_curvature <= 1.0, "stop.blade_curvature",
+            stop.blade_curvature, "not a usable blade curvature",
+            "0 (straight edges) to 1 (round)");
+}
+
+void check_configurations(const Prescription& lens) {
+    std::set<std::string_view> names;
+    for (std::size_t i = 0; i < lens.configurations.size(); ++i) {
+        const Configuration& each = lens.configurations[i];
+        const std::string where = fmt::format("configurations[{}]", i + 1);
+        if (each.name.empty())
+            refuse(where + ".name", "a configuration without a name", "an empty name",
+                   "a name such as 'wide'");
+        if (!names.insert(each.name).second)
+            refuse(where + ".name", "two configurations have the same name",
+                   fmt::format("'{}'", each.name), "a name of its own for each");
+        for (const auto& [row, thickness_mm] : each.thickness_mm) {
+            if (row >= lens.surfaces.size())
+                refuse(where + ".thickness_mm", "the row does not exist",
+                       fmt::format("{}", row + 1),
+                       fmt::format("a row from 1 to {}", lens.surfaces.size()));
+            require_thickness(fmt::format("{}.thickness_mm[{}]", where, row + 1), thickness_mm);
+        }
+        if (each.f_number)
+            require_f_number(where + ".f_number", *each.f_number);
+    }
+}
+
+}  // namespace
+
+void validate(const Prescription& lens) {
+    if (lens.surfaces.empty())
+        refuse("surfaces", "the lens has no surfaces", "none", "at least one surface");
+    if (lens.surfaces.size() > most_surfaces)
+        refuse("surfaces", "the lens has too many surfaces",
+               fmt::format("{}", lens.surfaces.size()), "at most 1000");
+    for (std::size_t row = 0; row < lens.surfaces.size(); ++row)
+        check_surface(lens.surfaces[row], fmt::format("surfaces[{}]", row + 1));
+    check_stop(lens.stop, lens.surfaces.size());
+    require_length("sensor.width_mm", lens.sensor.width_mm);
+    require_length("sensor.height_mm", lens.sensor.height_mm);
+    check_configurations(lens);
+}
+
+}  // namespace ghostlight
