@@ -1,0 +1,136 @@
+#include "widgets/theme.h"
+
+#include <QApplication>
+#include <QFont>
+#include <QFontDatabase>
+#include <QPalette>
+#include <QStyleFactory>
+
+#include "widgets/palette.h"
+
+namespace ghostlight {
+
+namespace {
+
+QColor mixed(const QColor& a, const QColor& b, double share_of_b) {
+    const auto channel = [&](int from, int to) {
+        return qRound(from + (to - from) * share_of_b);
+    };
+    return {channel(a.red(), b.red()), channel(a.green(), b.green()), channel(a.blue(), b.blue())};
+}
+
+QPalette qt_palette(const Palette& colors) {
+    QPalette palette;
+    palette.setColor(QPalette::Window, colors.ground);
+    palette.setColor(QPalette::WindowText, colors.text);
+    palette.setColor(QPalette::Base, colors.panel);
+    palette.setColor(QPalette::AlternateBase, colors.panel);
+    palette.setColor(QPalette::Text, colors.text);
+    palette.setColor(QPalette::PlaceholderText, colors.dim);
+    palette.setColor(QPalette::Button, colors.panel);
+    palette.setColor(QPalette::ButtonText, colors.text);
+    palette.setColor(QPalette::BrightText, colors.red_orange);
+    palette.setColor(QPalette::ToolTipBase, colors.ground);
+    palette.setColor(QPalette::ToolTipText, colors.text);
+    palette.setColor(QPalette::Highlight, mixed(colors.panel, colors.teal, 0.25));
+    palette.setColor(QPalette::HighlightedText, colors.text);
+    palette.setColor(QPalette::Link, colors.teal);
+    palette.setColor(QPalette::Light, colors.line);
+    palette.setColor(QPalette::Midlight, colors.line);
+    palette.setColor(QPalette::Mid, colors.line);
+    palette.setColor(QPalette::Dark, colors.ground);
+    palette.setColor(QPalette::Shadow, colors.ground);
+    for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText,
+                            QPalette::HighlightedText}) {
+        palette.setColor(QPalette::Disabled, role, mixed(colors.dim, colors.panel, 0.35));
+    }
+    return palette;
+}
+
+QString style_sheet(const Palette& colors) {
+    QString sheet = QStringLiteral(R"(
+QMainWindow::separator { background: @line; width: 1px; height: 1px; }
+QMainWindow::separator:hover { background: @teal; }
+QMenuBar { background: @ground; border-bottom: 1px solid @line; padding: 2px 4px; }
+QMenuBar::item { padding: 4px 8px; border-radius: 4px; background: transparent; }
+QMenuBar::item:selected { background: @line; }
+QMenu { background: @panel; border: 1px solid @line; padding: 4px 0; }
+QMenu::item { padding: 5px 28px 5px 24px; }
+QMenu::item:selected { background: @selection; }
+QMenu::item:disabled { color: @faint; }
+QMenu::separator { height: 1px; background: @line; margin: 4px 0; }
+QToolTip { background: @ground; color: @text; border: 1px solid @line; padding: 4px 6px; }
+QTableView { background: @panel; border: none; outline: none; gridline-color: transparent;
+    selection-background-color: @selection; selection-color: @text; }
+QHeaderView { background: @panel; border: none; }
+QHeaderView::section { background: @panel; color: @dim; border: none;
+    border-bottom: 1px solid @line; padding: 4px 8px; }
+QTableCornerButton::section { background: @panel; border: none; }
+QScrollBar:vertical { background: transparent; width: 10px; margin: 0; }
+QScrollBar:horizontal { background: transparent; height: 10px; margin: 0; }
+QScrollBar::handle { background: @line; border-radius: 3px; margin: 2px; min-height: 24px;
+    min-width: 24px; }
+QScrollBar::handle:hover { background: @faint; }
+QScrollBar::add-line, QScrollBar::sub-line { width: 0; height: 0; }
+QScrollBar::add-page, QScrollBar::sub-page { background: transparent; }
+QAbstractItemView QLineEdit { background: @ground; color: @text; border: 1px solid @teal;
+    padding: 0 6px; selection-background-color: @selection; }
+QAbstractItemView QLineEdit[refused="true"] { border: 1px solid @warning; }
+QComboBox QAbstractItemView, QCompleter QAbstractItemView, QListView { background: @panel;
+    border: 1px solid @line; outline: none; selection-background-color: @selection; }
+QPushButton { background: @panel; border: 1px solid @line; border-radius: 4px;
+    padding: 5px 14px; }
+QPushButton:hover { border-color: @dim; }
+QPushButton:default, QPushButton:focus { border-color: @teal; }
+QPushButton:disabled { color: @faint; }
+#scene_bar { background: @ground; border: none; border-bottom: 1px solid @line; }
+#scene_bar QFrame[field="true"] { background: @panel; border: 1px solid @line;
+    border-radius: 4px; }
+#scene_bar QFrame[field="true"]:hover { border-color: @faint; }
+#scene_bar QFrame[field="true"][focused="true"] { border-color: @teal; }
+#scene_bar QFrame[field="true"][refused="true"] { border-color: @warning; }
+#scene_bar QLabel, #scene_bar QLineEdit, #scene_bar QComboBox { background: transparent;
+    border: none; padding: 0; }
+#scene_bar QLineEdit { selection-background-color: @selection; }
+#scene_bar QComboBox::drop-down { width: 0; border: none; }
+#status_line { background: @ground; border-top: 1px solid @line; }
+#banner { background: @ground; border: 1px solid @warning; border-radius: 4px; }
+)");
+    const std::pair<const char*, QColor> roles[] = {
+        {"@ground", colors.ground},
+        {"@panel", colors.panel},
+        {"@line", colors.line},
+        {"@text", colors.text},
+        {"@dim", colors.dim},
+        {"@teal", colors.teal},
+        {"@warning", colors.red_orange},
+        {"@selection", mixed(colors.panel, colors.teal, 0.25)},
+        {"@faint", mixed(colors.dim, colors.panel, 0.35)},
+    };
+    for (const auto& [role, color] : roles) {
+        sheet.replace(QLatin1String(role), color.name());
+    }
+    return sheet;
+}
+
+QFont interface_font() {
+    QFont font = QFontDatabase::systemFont(QFontDatabase::GeneralFont);
+    if (QFontDatabase::families().contains("Inter")) {
+        font.setFamily("Inter");
+    }
+    // 13 px at 96 dpi; a point size would follow a display's odd physical resolution.
+    font.setPixelSize(13);
+    return font;
+}
+
+}  // namespace
+
+void apply_theme(QApplication& application, Theme theme) {
+    current_palette() = theme == Theme::dark ? dark_palette() : light_palette();
+    QApplication::setStyle(QStyleFactory::create("Fusion"));
+    QApplication::setFont(interface_font());
+    QApplication::setPalette(qt_palette(current_palette()));
+    application.setStyleSheet(style_sheet(current_palette()));
+}
+
+}  // namespace ghostlight
