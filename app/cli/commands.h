@@ -1,0 +1,17 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace ghostlight::cli {
+
+// Each adds one command to the program. What the command prints, and the names in it that scripts
+// rely on, are in docs/command-line.md.
+
+void add_info(CLI::App& program);
+void add_trace(CLI::App& program);
+void add_coating(CLI::App& program);
+void add_ghosts(CLI::App& program);
+void add_flare(CLI::App& program);
+void add_lenses(CLI::App& program);
+
+}  // namespace ghostlight::cli

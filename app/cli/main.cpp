@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "app/cli/commands.h"
+#include "app/cli/output.h"
+#include "core/error.h"
+
+namespace ghostlight::cli {
+namespace {
+
+constexpr int bad_input = 2;
+
+constexpr auto examples = R"(Examples:
+  ghostlight-cli lenses
+  ghostlight-cli info tessar_brendel_100_f2.8
+  ghostlight-cli ghosts tessar_brendel_100_f2.8 --field 15 --top 10 --paraxial
+  ghostlight-cli trace LENS --ghost 5-3 --field 15 --rays rays.csv --csv
+  ghostlight-cli coating --stack "1.0 | 1.38:96.4 | 1.5" --wavelengths 400:700:10 --angles 0:80:20
+  ghostlight-cli flare LENS --field 15 -o flare.exr
+
+Units: lengths mm, wavelengths nm in standard air, angles degrees; fluxes mm2 (per unit irradiance
+of the light). Surfaces count from 1, the stop included; ghost i-j turns first at i, then at j.
+Exit status: 0, or 2 with one line on standard error.)";
+
+// CLI11 says of an unknown command only that one is required.
+void check_command(const CLI::App& program, const std::vector<std::string>& arguments) {
+    if (!arguments.empty() && arguments.front().starts_with('-')) return;
+    std::vector<std::string> names;
+    for (const CLI::App* command : program.get_subcommands({}))
+        names.push_back(command->get_name());
+    if (arguments.empty() ||
+        std::find(names.begin(), names.end(), arguments.front()) == names.end())
+        throw Error({.problem = arguments.empty() ? "no command" : "unknown command",
+                     .file = {},
+                     .where = {},
+                     .found = arguments.empty() ? "" : fmt::format("'{}'", arguments.front()),
+                     .expected = fmt::format("one of {}, or --help", fmt::join(names, ", "))});
+}
+
+int run(std::vector<std::string> arguments) {
+    CLI::App program("Ghostlight: ghosts and flare of a lens, from its prescription.",
+                     "ghostlight-cli");
+    program.set_help_flag("-h,--help", "print this help and exit");
+    program.set_version_flag("--version", "ghostlight-cli " GHOSTLIGHT_VERSION);
+    program.require_subcommand(1);
+    program.footer(examples);
+    program.get_formatter()->column_width(32);
+    add_info(program);
+    add_trace(program);
+    add_coating(program);
+    add_ghosts(program);
+    add_flare(program);
+    add_lenses(program);
+    try {
+        check_command(program, arguments);
+        std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+        program.parse(std::move(arguments));
+    } catch (const CLI::CallForHelp&) {
+        const auto chosen = program.get_subcommands();
+        write_standard_output((chosen.empty() ? &program : chosen.front())->help());
+    } catch (const CLI::CallForVersion& version) {
+        write_standard_output(std::string(version.what()) + "\n");
+    }
+    return 0;
+}
+
+}  // namespace
+}  // namespace ghostlight::cli
+
+int main(int argc, char** argv) {
+    using namespace ghostlight::cli;
+    prepare_streams();
+    try {
+        return run({argv + std::min(argc, 1), argv + argc});
+    } catch (const std::exception& error) {
+        // Bad input of every kind: ghostlight::Error, CLI::ParseError, not enough memory for it.
+        write_standard_error(fmt::format("ghostlight-cli: {}", error.what()));
+        return bad_input;
+    }
+}
