@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <memory>
 
@@ -51,7 +50,7 @@ std::string readable(const LoadedLens& loaded, double wavelength_nm,
     line("source", lens.source);
     line("notes", lens.notes);
     line("file", loaded.file.string());
-    line("configurations", fmt::format("{}", fmt::join(loaded.configurations, ", ")));
+    line("configurations", joined(loaded.configurations, ", "));
     line("surfaces",
          fmt::format("{}, the stop is row {}", lens.surfaces.size(), lens.stop.surface + 1));
     line("sensor_mm", fmt::format("{:.6g} x {:.6g}", lens.sensor.width_mm, lens.sensor.height_mm));
@@ -82,7 +81,7 @@ void run(const InfoOptions& options) {
     std::vector<std::string> names;
     for (const std::string& name : loaded.configurations) names.push_back(json_string(name));
     report.lens.emplace_back("source", json_string(lens.source));
-    report.lens.emplace_back("configurations", fmt::format("[{}]", fmt::join(names, ", ")));
+    report.lens.emplace_back("configurations", fmt::format("[{}]", joined(names, ", ")));
     report.lens.emplace_back("surfaces", fmt::format("{}", lens.surfaces.size()));
     report.lens.emplace_back("stop_surface", fmt::format("{}", lens.stop.surface + 1));
     report.request = {{"command", json_string("info")},

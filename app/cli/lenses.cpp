@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <memory>
 
@@ -26,7 +25,7 @@ std::vector<Cell> row_of(const BundledLens& bundled) {
             first.f_number,
             static_cast<std::int64_t>(lens.surfaces.size()),
             static_cast<std::int64_t>(two_reflection_ghosts(system).size()),
-            fmt::format("{}", fmt::join(configurations, " ")),
+            joined(configurations, " "),
             bundled.file.string()};
 }
 

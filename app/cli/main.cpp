@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "app/cli/commands.h"
+#include "app/cli/options.h"
 #include "app/cli/output.h"
 #include "core/error.h"
 
@@ -40,7 +40,7 @@ void check_command(const CLI::App& program, const std::vector<std::string>& argu
                      .file = {},
                      .where = {},
                      .found = arguments.empty() ? "" : fmt::format("'{}'", arguments.front()),
-                     .expected = fmt::format("one of {}, or --help", fmt::join(names, ", "))});
+                     .expected = fmt::format("one of {}, or --help", joined(names, ", "))});
 }
 
 int run(std::vector<std::string> arguments) {

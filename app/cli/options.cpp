@@ -1,7 +1,6 @@
 #include "app/cli/options.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <charconv>
 #include <cmath>
@@ -86,7 +85,7 @@ std::filesystem::path find_lens(const std::string& text) {
                  .found = "'" + text + "'",
                  .expected = names.empty() ? "the path of a lens file"
                                            : fmt::format("the path of a lens file or one of {}",
-                                                         fmt::join(names, ", "))});
+                                                         joined(names, ", "))});
 }
 
 void override_stop(Prescription& lens, const LensOptions& options) {
@@ -154,6 +153,15 @@ Error bad_value(std::string_view option, std::string_view found, std::string_vie
                   .where = std::string(option),
                   .found = fmt::format("'{}'", found),
                   .expected = std::string(expected)});
+}
+
+std::string joined(const std::vector<std::string>& texts, std::string_view separator) {
+    std::string all;
+    for (const std::string& text : texts) {
+        if (!all.empty()) all += separator;
+        all += text;
+    }
+    return all;
 }
 
 std::optional<double> parse_number(std::string_view text) {

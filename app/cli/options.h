@@ -20,6 +20,9 @@ namespace ghostlight::cli {
 /// The value of an option that does not do: which option, what was found, what was expected.
 Error bad_value(std::string_view option, std::string_view found, std::string_view expected);
 
+/// "a, b, c"
+std::string joined(const std::vector<std::string>& texts, std::string_view separator);
+
 /// A finite number in C notation without anything around it but spaces.
 std::optional<double> parse_number(std::string_view text);
 
