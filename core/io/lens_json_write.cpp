@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+
+#include "core/io/lens_json.h"
+#include "core/io/medium_json.h"
+
+namespace ghostlight {
+namespace {
+
+void put(Json& object, const char* key, const std::optional<double>& value) {
+    if (value) object[key] = *value;
+}
+
+void put_unless(Json& object, const char* key, double value, double usual) {
+    if (value != usual) object[key] = value;
+}
+
+Json published_json(const Published& published) {
+    Json object = Json::object();
+    put(object, "efl_mm", published.efl_mm);
+    put(object, "f_number", published.f_number);
+    put(object, "bfd_mm", published.bfd_mm);
+    put(object, "half_field_deg", published.half_field_deg);
+    restore_unknown(object, published.unknown);
+    return object;
+}
+
+Json stop_json(const Stop& stop) {
+    Json object = {{"surface", stop.surface + 1}};
+    put(object, "f_number", stop.f_number);
+    put(object, "semi_diameter_mm", stop.semi_diameter_mm);
+    object["blades"] = stop.blades;
+    put_unless(object, "rotation_deg", stop.rotation_deg, 0.0);
+    put_unless(object, "blade_curvature", stop.blade_curvature, 0.0);
+    restore_unknown(object, stop.unknown);
+    return object;
+}
+
+Json sensor_json(const Sensor& sensor, double distance_mm) {
+    Json object = {{"width_mm", sensor.width_mm}, {"height_mm", sensor.height_mm}};
+    if (sensor.at_paraxial_focus)
+        object["distance_mm"] = "paraxial focus";
+    else
+        object["distance_mm"] = distance_mm;
+    restore_unknown(object, sensor.unknown);
+    return object;
+}
+
+struct WriteCurve {
+    Json& object;
+    void operator()(const Plane&) const {}
+    void operator()(const Radius& radius) const { object["radius_mm"] = radius.mm; }
+    void operator()(const Curvature& curve) const { object["curvature_per_mm"] = curve.per_mm; }
+};
+
+Json surface_json(const Surface& surface, bool with_thickness) {
+    Json object = Json::object();
+    std::visit(WriteCurve{object}, surface.curve);
+    put_unless(object, "conic", surface.conic, 0.0);
+    if (!surface.aspheric.empty()) {
+        Json& terms = object["aspheric"] = Json::object();
+        for (std::size_t i = 0; i < surface.aspheric.size(); ++i)
+            terms[fmt::format("A{}", 4 + 2 * i)] = surface.aspheric[i];
+    }
+    if (with_thickness) object["thickness_mm"] = surface.thickness_mm;
+    write_medium(object, surface.medium_after);
+    object["semi_diameter_mm"] = surface.semi_diameter_mm;
+    if (!std::holds_alternative<Uncoated>(surface.coating))
+        object["coating"] = write_coating(surface.coating);
+    if (!surface.comment.empty()) object["comment"] = surface.comment;
+    restore_unknown(object, surface.unknown);
+    return object;
+}
+
+Json configuration_json(const Configuration& configuration) {
+    Json object = {{"name", configuration.name}};
+    Json thicknesses = Json::object();
+    for (const auto& [row, thickness_mm] : configuration.thickness_mm)
+        thicknesses[fmt::format("{}", row + 1)] = thickness_mm;
+    if (!thicknesses.empty()) object["thickness_mm"] = std::move(thicknesses);
+    put(object, "f_number", configuration.f_number);
+    restore_unknown(object, configuration.unknown);
+    return object;
+}
+
+/// One field a line, and for arrays of objects one object a line, so that files compare well.
+std::string by_lines(const Json& root) {
+    std::string out = "{";
+    const char* separator = "\n";
+    for (const auto& [key, value] : root.items()) {
+        out += std::exchange(separator, ",\n");
+        out += "  " + compact_json(key) + ": ";
+        if (value.is_array() && !value.empty() && value.front().is_object()) {
+            const char* between = "\n";
+            out += '[';
+            for (const Json& each : value)
+                out += std::exchange(between, ",\n") + ("    " + compact_json(each));
+            out += "\n  ]";
+        } else {
+            out += compact_json(value);
+        }
+    }
+    return out + "\n}\n";
+}
+
+}  // namespace
+
+std::string lens_to_json(const Prescription& lens) {
+    Json root = {{"ghostlight_lens", lens_schema_version}, {"name", lens.name}};
+    if (!lens.source.empty()) root["source"] = lens.source;
+    if (!lens.notes.empty()) root["notes"] = lens.notes;
+    if (lens.published != Published{}) root["published"] = published_json(lens.published);
+    root["stop"] = stop_json(lens.stop);
+    root["sensor"] =
+        sensor_json(lens.sensor, lens.surfaces.empty() ? 0.0 : lens.surfaces.back().thickness_mm);
+    root["surfaces"] = Json::array();
+    for (std::size_t row = 0; row < lens.surfaces.size(); ++row) {
+        const Surface& surface = lens.surfaces[row];
+        // With the sensor at the focus, the last thickness is kept for when it is there no more.
+        const bool is_last = row + 1 == lens.surfaces.size();
+        root["surfaces"].push_back(surface_json(
+            surface, !is_last || (lens.sensor.at_paraxial_focus && surface.thickness_mm != 0.0)));
+    }
+    if (!lens.configurations.empty()) {
+        root["configurations"] = Json::array();
+        for (const Configuration& each : lens.configurations)
+            root["configurations"].push_back(configuration_json(each));
+    }
+    restore_unknown(root, lens.unknown);
+    return by_lines(root);
+}
+
+}  // namespace ghostlight
