@@ -1,9 +1,10 @@
 #pragma once
 
+#include <QColor>
 #include <QString>
 #include <QWidget>
 
-class QLabel;
+#include <vector>
 
 namespace ghostlight {
 
@@ -11,25 +12,32 @@ namespace ghostlight {
 class PanelHeader : public QWidget {
     Q_OBJECT
    public:
+    /// A stretch of the state's text; without a colour it takes the header's own.
+    struct Part {
+        QString text;
+        QColor color;
+    };
+
     explicit PanelHeader(const QString& title, QWidget* parent = nullptr);
 
     void set_state(const QString& state);
-    QString state() const { return state_; }
+    void set_state(std::vector<Part> parts);
+    /// The state as plain text.
+    QString state() const;
     /// A warning is written in the warning colour.
     void set_warning(bool warning);
+    /// Dims the state: it belongs to something older than what is now asked for.
     void set_dimmed(bool dimmed);
 
+    QSize sizeHint() const override;
+    QSize minimumSizeHint() const override;
+
    protected:
-    void resizeEvent(QResizeEvent* event) override;
     void paintEvent(QPaintEvent* event) override;
-    void changeEvent(QEvent* event) override;
 
    private:
-    void refresh();
-
-    QLabel* title_label_ = nullptr;
-    QLabel* state_label_ = nullptr;
-    QString state_;
+    QString title_;
+    std::vector<Part> parts_;
     bool warning_ = false;
     bool dimmed_ = false;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QImage>
+#include <QStringList>
 #include <QWidget>
 
 #include <vector>
@@ -32,6 +33,7 @@ class LayoutPanel : public QWidget {
     void clear();
     /// Brings the whole lens, from the incoming rays to the sensor, into view.
     void fit();
+    LayoutView* view() const { return view_; }
     /// What the view shows, in device pixels; null if it cannot be drawn.
     QImage grab_view();
 
@@ -44,6 +46,10 @@ class LayoutPanel : public QWidget {
 
     PanelHeader* header_ = nullptr;
     LayoutView* view_ = nullptr;
+    QString lens_name_;
+    QStringList surface_texts_;  ///< what the header says of each surface
+    QString direct_text_;
+    QString failure_;  ///< why there are no rays
     int hovered_row_ = 0;
 };
 

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "core/flare/flare_image.h"
+
+namespace ghostlight {
+
+/// The exposure, in whole thirds of a stop, that puts all but the brightest `share` of the lit
+/// picture below display white. 0 for a picture without light.
+double auto_exposure_ev(const FlareImage& image, double share = 0.01);
+
+}  // namespace ghostlight

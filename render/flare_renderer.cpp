@@ -1,0 +1,119 @@
+#include "render/flare_renderer.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/error.h"
+#include "render_shaders.h"
+
+namespace ghostlight {
+
+namespace {
+
+constexpr int least_gl_version = 32;        // as epoxy counts: 3.2
+constexpr double exact_px_per_texel = 3.0;  // from here on pixels are shown as squares
+constexpr float highlight_floor_share = 1e-4F;  // of the brightest: raster rounding is below
+
+void require_size(const std::vector<float>& data, const FlareImage& image, std::size_t channels,
+                  const char* what) {
+    const auto wanted = static_cast<std::size_t>(std::max(image.width_px, 0)) *
+                        static_cast<std::size_t>(std::max(image.height_px, 0)) * channels;
+    if (data.size() != wanted) {
+        throw Error({.problem = "the picture's data do not match its size",
+                     .file = {},
+                     .where = what,
+                     .found = std::to_string(data.size()) + " values",
+                     .expected = std::to_string(wanted)});
+    }
+}
+
+}  // namespace
+
+double PictureUpload::upload(const FlareImage& image) {
+    const auto begin = std::chrono::steady_clock::now();
+    require_size(image.rgb, image, 3, "rgb");
+    color_.upload(image.width_px, image.height_px, 3, image.rgb.data());
+    texture_ = {color_.name(), 0, image.width_px, image.height_px, 0.0F};
+    if (!image.highlight.empty()) {
+        require_size(image.highlight, image, 1, "highlight");
+        highlight_.upload(image.width_px, image.height_px, 1, image.highlight.data());
+        texture_.highlight = highlight_.name();
+        texture_.highlight_floor = std::max(
+            highlight_floor_share * *std::ranges::max_element(image.highlight), 1e-30F);
+    }
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    return took.count();
+}
+
+FlareRenderer::FlareRenderer() {
+    if (epoxy_gl_version() < least_gl_version) {
+        throw Error({.problem = "OpenGL is too old",
+                     .file = {},
+                     .where = {},
+                     .found = std::to_string(epoxy_gl_version() / 10) + "." +
+                              std::to_string(epoxy_gl_version() % 10),
+                     .expected = "3.2 or newer"});
+    }
+    while (glGetError() != GL_NO_ERROR) {  // another's
+    }
+    program_ = GlProgram(shaders::picture_vertex, shaders::picture_fragment);
+    vertices_.create();
+    check_gl("preparing the flare view");
+}
+
+void FlareRenderer::draw(const PictureTexture& picture, const PictureFrame& frame,
+                         const PictureLook& look, int viewport_width_px, int viewport_height_px) {
+    while (glGetError() != GL_NO_ERROR) {
+    }
+    // Every state this depends on is set: Qt's painter and VTK leave their own behind.
+    glViewport(0, 0, viewport_width_px, viewport_height_px);
+    for (const GLenum off : {GL_BLEND, GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST, GL_CULL_FACE}) {
+        glDisable(off);
+    }
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glClearColor(look.surround[0], look.surround[1], look.surround[2], 1.0F);
+    glClear(GL_COLOR_BUFFER_BIT);
+    if (picture.color == 0) {
+        check_gl("clearing the flare view");
+        return;
+    }
+
+    const double width = viewport_width_px, height = viewport_height_px;
+    const auto clip_x = [&](double px) { return static_cast<float>(2.0 * px / width - 1.0); };
+    const auto clip_y = [&](double px) { return static_cast<float>(1.0 - 2.0 * px / height); };
+    const bool highlight = look.show_highlight && picture.highlight != 0;
+    const double px_per_texel = frame.width_px / std::max(picture.width_px, 1);
+
+    glUseProgram(program_.name());
+    glUniform4f(program_.uniform("rectangle"), clip_x(frame.left_px),
+                clip_y(frame.top_px + frame.height_px), clip_x(frame.left_px + frame.width_px),
+                clip_y(frame.top_px));
+    glUniform1f(program_.uniform("scale"), static_cast<float>(std::exp2(look.exposure_ev)));
+    glUniform1i(program_.uniform("exact"), px_per_texel >= exact_px_per_texel ? 1 : 0);
+    glUniform1i(program_.uniform("show_highlight"), highlight ? 1 : 0);
+    glUniform1f(program_.uniform("highlight_floor"), picture.highlight_floor);
+    glUniform3f(program_.uniform("highlight_color"), look.highlight[0], look.highlight[1],
+                look.highlight[2]);
+    glUniform2f(program_.uniform("outline_step"), static_cast<float>(1.0 / frame.width_px),
+                static_cast<float>(1.0 / frame.height_px));
+    glUniform1i(program_.uniform("color_map"), 0);
+    glUniform1i(program_.uniform("highlight_map"), 1);
+    glActiveTexture(GL_TEXTURE1);
+    glBindTexture(GL_TEXTURE_2D, highlight ? picture.highlight : picture.color);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, picture.color);
+    glBindVertexArray(vertices_.name());
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    glBindVertexArray(0);
+    glUseProgram(0);
+    glActiveTexture(GL_TEXTURE1);
+    glBindTexture(GL_TEXTURE_2D, 0);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, 0);
+    check_gl("drawing the flare");
+}
+
+}  // namespace ghostlight

@@ -1,0 +1,187 @@
+#include "widgets/gl_view.h"
+
+#include <QOffscreenSurface>
+#include <QOpenGLContext>
+#include <QOpenGLFunctions>
+#include <QOpenGLWidget>
+#include <QPainter>
+#include <QTimer>
+
+#include <cmath>
+
+namespace ghostlight {
+
+QSurfaceFormat gl_view_format() {
+    QSurfaceFormat format;
+    format.setRenderableType(QSurfaceFormat::OpenGL);
+    format.setVersion(3, 2);
+    format.setProfile(QSurfaceFormat::CoreProfile);
+    format.setDepthBufferSize(24);
+    format.setStencilBufferSize(8);  // for QPainter's clipping
+    format.setAlphaBufferSize(8);
+    format.setSamples(4);
+    return format;
+}
+
+bool gl_available() {
+    static const bool available = [] {
+        QOpenGLContext context;
+        context.setFormat(gl_view_format());
+        if (!context.create()) {
+            return false;
+        }
+        QOffscreenSurface surface;
+        surface.setFormat(context.format());
+        surface.create();
+        if (!surface.isValid() || !context.makeCurrent(&surface)) {
+            return false;
+        }
+        const QSurfaceFormat got = context.format();
+        context.doneCurrent();
+        return got.version() >= qMakePair(3, 2);
+    }();
+    return available;
+}
+
+class GlView::Surface : public QOpenGLWidget {
+   public:
+    explicit Surface(GlView* view) : QOpenGLWidget(view), view_(view) {
+        setFormat(gl_view_format());
+        setAttribute(Qt::WA_TransparentForMouseEvents);
+        setFocusPolicy(Qt::NoFocus);
+    }
+    ~Surface() override { close(); }
+
+    void close() {
+        if (!initialized_) {
+            return;
+        }
+        disconnect(about_to_be_destroyed_);
+        makeCurrent();
+        release();
+        doneCurrent();
+    }
+
+   protected:
+    void initializeGL() override {
+        // A dock that floats brings its own window, and with it a new context.
+        about_to_be_destroyed_ = connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] {
+            makeCurrent();
+            release();
+            doneCurrent();
+        });
+        initialized_ = true;
+        view_->init_gl();
+    }
+
+    void paintGL() override {
+        QOpenGLFunctions* gl = context()->functions();
+        if (view_->failed_) {
+            gl->glClearColor(0, 0, 0, 1);
+            gl->glClear(GL_COLOR_BUFFER_BIT);
+            return;
+        }
+        const qreal ratio = devicePixelRatio();
+        view_->paint_gl(defaultFramebufferObject(), static_cast<int>(std::lround(width() * ratio)),
+                        static_cast<int>(std::lround(height() * ratio)));
+        // The window blends this surface by its alpha, which must not depend on what was drawn.
+        gl->glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
+        gl->glDisable(GL_SCISSOR_TEST);
+        gl->glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
+        gl->glClearColor(0, 0, 0, 1);
+        gl->glClear(GL_COLOR_BUFFER_BIT);
+        gl->glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+        QPainter painter(this);
+        painter.setRenderHints(QPainter::Antialiasing | QPainter::TextAntialiasing);
+        view_->paint_overlay(painter);
+    }
+
+   private:
+    void release() {
+        if (initialized_) {
+            view_->release_gl();
+            initialized_ = false;
+        }
+    }
+
+    GlView* view_;
+    bool initialized_ = false;
+    QMetaObject::Connection about_to_be_destroyed_;
+};
+
+GlView::GlView(QWidget* parent) : QWidget(parent) {
+    setMouseTracking(true);
+    setFocusPolicy(Qt::ClickFocus);
+    setMinimumSize(80, 60);
+    if (gl_available()) {
+        surface_ = new Surface(this);
+    } else {
+        failure_ = tr("OpenGL 3.2 is not available here");
+    }
+}
+
+GlView::~GlView() = default;
+
+void GlView::close_gl() {
+    if (surface_ != nullptr) {
+        surface_->close();
+        delete surface_;
+        surface_ = nullptr;
+    }
+}
+
+bool GlView::make_current() {
+    if (!has_gl() || surface_->context() == nullptr) {
+        return false;
+    }
+    surface_->makeCurrent();
+    return true;
+}
+
+void GlView::done_current() { surface_->doneCurrent(); }
+
+void GlView::fail_gl(const QString& reason) {
+    failed_ = true;
+    failure_ = reason;
+    qWarning("%s: %s", metaObject()->className(), qPrintable(reason));
+    // Not from within its own paint.
+    QTimer::singleShot(0, this, [this] {
+        if (surface_ != nullptr) {
+            surface_->hide();
+        }
+        update();
+    });
+}
+
+QImage GlView::grab_view() {
+    if (has_gl()) {
+        return surface_->grabFramebuffer().convertToFormat(QImage::Format_RGB32);
+    }
+    return grab().toImage();
+}
+
+void GlView::refresh() {
+    if (has_gl()) {
+        surface_->update();
+    } else {
+        update();
+    }
+}
+
+void GlView::resizeEvent(QResizeEvent*) {
+    if (surface_ != nullptr) {
+        surface_->setGeometry(rect());
+    }
+}
+
+void GlView::paintEvent(QPaintEvent*) {
+    if (has_gl()) {
+        return;
+    }
+    QPainter painter(this);
+    painter.setRenderHints(QPainter::Antialiasing | QPainter::TextAntialiasing);
+    paint_without_gl(painter);
+    paint_overlay(painter);
+}
+
+}  // namespace ghostlight
