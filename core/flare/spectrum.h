@@ -43,7 +43,7 @@ std::vector<SpectralSample> sample(const Spectrum& spectrum, int count);
 struct Rgb {
     double r = 0.0, g = 0.0, b = 0.0;
 };
-/// CIE 1931 2° colour-matching functions, interpolated from the 10 nm table.
+/// CIE 1931 2° colour-matching functions (CIE 15), linear in the 5 nm table; 0 outside 380–780 nm.
 struct Xyz {
     double x = 0.0, y = 0.0, z = 0.0;
 };
@@ -51,7 +51,9 @@ Xyz color_matching(double wavelength_nm);
 Rgb linear_rec709(const Xyz& xyz);
 
 /// Linear Rec.709 colour of each sample, scaled so that the light itself, the sum over samples of
-/// weight × colour, is (1, 1, 1) for a light inside the gamut. A single wavelength is shown neutral.
-std::vector<Rgb> sample_colors(const Spectrum& spectrum, const std::vector<SpectralSample>& samples);
+/// weight × colour, is (1, 1, 1) for a light inside the gamut. A single wavelength is shown
+/// neutral.
+std::vector<Rgb> sample_colors(const Spectrum& spectrum,
+                               const std::vector<SpectralSample>& samples);
 
 }  // namespace ghostlight

@@ -7,8 +7,13 @@ namespace ghostlight {
 /// sRGB's encoding of a linear value, 0 to 1 (IEC 61966-2-1).
 float srgb_encoded(float linear);
 
-/// Display colour of a linear one at an exposure in stops: scale, soft shoulder above 0.8 that
-/// keeps hue, sRGB encoding. For screens and PNG only; files keep linear values.
+/// Up to here a display value is the linear one.
+inline constexpr float tone_shoulder = 0.8f;
+
+/// Display colour of a linear one at an exposure in stops: times 2^ev, negative values to 0; with m
+/// the largest channel and s the shoulder, where m > s all three times m'/m,
+/// m' = s + (1 − s)(1 − exp(−(m − s)/(1 − s))), which keeps the hue; sRGB encoding. For screens and
+/// PNG only; files keep linear values.
 std::array<float, 3> tone_mapped(std::array<float, 3> linear, double exposure_ev);
 
 }  // namespace ghostlight

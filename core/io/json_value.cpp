@@ -178,7 +178,7 @@ std::string compact_json(const Json& value) {
 std::string format_number(double value) {
     if (!std::isfinite(value)) return "null";
     const double size = std::abs(value);
-    const bool plain = size == 0.0 || (size >= 1e-5 && size < 1e15);
+    const bool plain = size == 0.0 || (size >= 1e-4 && size < 1e15);
     char digits[64];
     const auto end =
         std::to_chars(std::begin(digits), std::end(digits), value,

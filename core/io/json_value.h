@@ -22,7 +22,7 @@ Json parse_json(std::string_view text, const std::string& file);
 /// One line of JSON: `{"a": 1, "b": [2, 3]}`; numbers by format_number.
 std::string compact_json(const Json& value);
 
-/// Shortest digits that read back to the same value, in the C locale; no exponent between 1e-5
+/// Shortest digits that read back to the same value, in the C locale; no exponent between 1e-4
 /// and 1e15. Infinite or NaN becomes null, as JSON has no such numbers.
 std::string format_number(double value);
 

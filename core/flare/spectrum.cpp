@@ -1,0 +1,194 @@
+#include "core/flare/spectrum.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/flare/cie_tables.h"
+
+namespace ghostlight {
+namespace {
+
+/// Second radiation constant, nm K (CODATA 2018, exact).
+constexpr double c2_nm_k = 1.438776877e7;
+/// CIE standard illuminant A is Planck's law as it was in 1931: c2 = 1.435e7 nm K, 2848 K.
+constexpr double illuminant_a_nm = 1.435e7 / 2848.0;
+constexpr double reference_nm = 560.0;
+
+constexpr double coolest_k = 500.0, hottest_k = 1e6;
+constexpr double shortest_nm = 100.0, longest_nm = 1e5;
+constexpr double band_first_nm = 400.0, band_last_nm = 700.0;
+
+/// Planck's law in a wavelength, over its value at 560 nm; `scale_nm` is c2 / T. Written with
+/// falling exponentials so that a cold source does not overflow.
+double planck(double scale_nm, double wavelength_nm) {
+    const double x = scale_nm / wavelength_nm;
+    const double reference = scale_nm / reference_nm;
+    return std::pow(reference_nm / wavelength_nm, 5) * std::exp(reference - x) *
+           std::expm1(-reference) / std::expm1(-x);
+}
+
+/// Where a wavelength is in a table: the entry before it, and how far it is to the next.
+struct Place {
+    std::size_t index;
+    double share;
+};
+Place place(double wavelength_nm, double step_nm, std::size_t entries) {
+    const double steps = (wavelength_nm - cie::first_nm) / step_nm;
+    const auto index = std::min(static_cast<std::size_t>(steps), entries - 2);
+    return {index, steps - static_cast<double>(index)};
+}
+
+bool is_tabulated(double wavelength_nm) {
+    return wavelength_nm >= cie::first_nm && wavelength_nm <= cie::last_nm;
+}
+
+struct PowerAt {
+    double nm;
+
+    double operator()(const Monochromatic& light) const {
+        return nm == light.wavelength_nm ? 1.0 : 0.0;
+    }
+    double operator()(const Blackbody& light) const {
+        return planck(c2_nm_k / light.temperature_k, nm);
+    }
+    double operator()(const StandardLight& light) const {
+        if (!is_tabulated(nm)) return 0.0;
+        switch (light.illuminant) {
+            case Illuminant::e:
+                return 1.0;
+            case Illuminant::a:
+                return planck(illuminant_a_nm, nm);
+            case Illuminant::d65:
+                break;
+        }
+        const Place at = place(nm, cie::d65_step_nm, cie::d65.size());
+        return std::lerp(cie::d65[at.index], cie::d65[at.index + 1], at.share) / 100.0;
+    }
+};
+
+struct NameOf {
+    std::string operator()(const Monochromatic& light) const {
+        return fmt::format("{} nm", light.wavelength_nm);
+    }
+    std::string operator()(const Blackbody& light) const {
+        return fmt::format("{} K", light.temperature_k);
+    }
+    std::string operator()(const StandardLight& light) const {
+        switch (light.illuminant) {
+            case Illuminant::e:
+                return "E";
+            case Illuminant::a:
+                return "A";
+            case Illuminant::d65:
+                break;
+        }
+        return "D65";
+    }
+};
+
+std::string_view trimmed(std::string_view text) {
+    const auto first = text.find_first_not_of(" \t");
+    if (first == text.npos) return {};
+    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+[[noreturn]] void refuse(std::string_view text) {
+    throw Error({.problem = "not a known light",
+                 .file = {},
+                 .where = "spectrum",
+                 .found = fmt::format("'{}'", text),
+                 .expected = "D65, A, E, a temperature such as '5500 K' (500 to 1000000), or a "
+                             "wavelength such as '550 nm'"});
+}
+
+double luminance(const Rgb& rgb) { return 0.2126 * rgb.r + 0.7152 * rgb.g + 0.0722 * rgb.b; }
+
+}  // namespace
+
+std::string name(const Spectrum& spectrum) { return std::visit(NameOf{}, spectrum); }
+
+Spectrum parse_spectrum(std::string_view text) {
+    const std::string_view whole = trimmed(text);
+    std::string lower(whole);
+    std::ranges::transform(lower, lower.begin(), [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+    if (lower == "d65") return StandardLight{Illuminant::d65};
+    if (lower == "a") return StandardLight{Illuminant::a};
+    if (lower == "e") return StandardLight{Illuminant::e};
+
+    double value = 0.0;
+    const auto [end, status] = std::from_chars(lower.data(), lower.data() + lower.size(), value);
+    if (status != std::errc{}) refuse(text);
+    const std::string_view unit =
+        trimmed({end, static_cast<std::size_t>(lower.data() + lower.size() - end)});
+    if (unit == "k" && value >= coolest_k && value <= hottest_k) return Blackbody{value};
+    if (unit == "nm" && value >= shortest_nm && value <= longest_nm) return Monochromatic{value};
+    refuse(text);
+}
+
+double relative_power(const Spectrum& spectrum, double wavelength_nm) {
+    return std::visit(PowerAt{wavelength_nm}, spectrum);
+}
+
+std::vector<SpectralSample> sample(const Spectrum& spectrum, int count) {
+    if (const auto* single = std::get_if<Monochromatic>(&spectrum))
+        return {{single->wavelength_nm, 1.0}};
+    if (count < 1)
+        throw Error({.problem = "a spectrum needs at least one sample",
+                     .file = {},
+                     .where = {},
+                     .found = fmt::format("{}", count),
+                     .expected = "1 or more"});
+    std::vector<SpectralSample> samples;
+    double sum = 0.0;
+    const double width_nm = (band_last_nm - band_first_nm) / count;
+    for (int i = 0; i < count; ++i) {
+        const double nm = band_first_nm + (i + 0.5) * width_nm;
+        samples.push_back({nm, relative_power(spectrum, nm)});
+        sum += samples.back().weight;
+    }
+    for (SpectralSample& each : samples) each.weight /= sum;
+    return samples;
+}
+
+Xyz color_matching(double wavelength_nm) {
+    if (!is_tabulated(wavelength_nm)) return {};
+    const Place at = place(wavelength_nm, cie::observer_step_nm, cie::observer.size());
+    const auto& before = cie::observer[at.index];
+    const auto& after = cie::observer[at.index + 1];
+    return {std::lerp(before[0], after[0], at.share), std::lerp(before[1], after[1], at.share),
+            std::lerp(before[2], after[2], at.share)};
+}
+
+Rgb linear_rec709(const Xyz& xyz) {
+    // IEC 61966-2-1: the primaries of Rec. 709 with D65.
+    return {3.2404542 * xyz.x - 1.5371385 * xyz.y - 0.4985314 * xyz.z,
+            -0.9692660 * xyz.x + 1.8760108 * xyz.y + 0.0415560 * xyz.z,
+            0.0556434 * xyz.x - 0.2040259 * xyz.y + 1.0572252 * xyz.z};
+}
+
+std::vector<Rgb> sample_colors(const Spectrum& spectrum,
+                               const std::vector<SpectralSample>& samples) {
+    std::vector<Rgb> colors(samples.size(), Rgb{1.0, 1.0, 1.0});
+    if (std::holds_alternative<Monochromatic>(spectrum) || samples.size() < 2) return colors;
+    Rgb white;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        colors[i] = linear_rec709(color_matching(samples[i].wavelength_nm));
+        white.r += samples[i].weight * colors[i].r;
+        white.g += samples[i].weight * colors[i].g;
+        white.b += samples[i].weight * colors[i].b;
+    }
+    const double y = luminance(white);
+    // A channel that is negative, or next to nothing, cannot be balanced: then only the luminance.
+    constexpr double least_share = 1e-3;
+    if (std::min({white.r, white.g, white.b}) < least_share * y) white = {y, y, y};
+    for (Rgb& color : colors) color = {color.r / white.r, color.g / white.g, color.b / white.b};
+    return colors;
+}
+
+}  // namespace ghostlight
