@@ -1,5 +1,7 @@
 #include "core/optics/trace.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,9 +10,7 @@
 #include "core/units.h"
 
 namespace ghostlight {
-namespace {
 
-/// Distance inside the stop's edge over its semi-diameter: positive where it is open.
 double stop_margin(const StopMask& mask, double u_mm, double v_mm) {
     const double a = mask.semi_diameter_mm;
     if (mask.blades < 3) return 1.0 - std::hypot(u_mm, v_mm) / a;
@@ -32,8 +32,6 @@ double stop_margin(const StopMask& mask, double u_mm, double v_mm) {
     return margin;
 }
 
-}  // namespace
-
 BeamFrame beam_frame(const LightDirection& light) {
     const double theta = rad_from_deg(light.field_deg);
     const double phi = rad_from_deg(light.azimuth_deg);
@@ -49,14 +47,14 @@ BeamFrame beam_frame(const LightDirection& light) {
 }
 
 std::string to_string(const RayStatus& status) {
-    const std::string at = ":" + std::to_string(status.surface + 1);
+    const auto at = [&](const char* fate) { return fmt::format("{}:{}", fate, status.surface + 1); };
     switch (status.fate) {
         case RayFate::ok: return "ok";
-        case RayFate::miss: return "miss" + at;
-        case RayFate::tir: return "tir" + at;
-        case RayFate::turned: return "turned" + at;
-        case RayFate::clipped: return "clipped" + at;
-        case RayFate::stop: return "stop" + at;
+        case RayFate::miss: return at("miss");
+        case RayFate::tir: return at("tir");
+        case RayFate::turned: return at("turned");
+        case RayFate::clipped: return at("clipped");
+        case RayFate::stop: return at("stop");
     }
     return "ok";
 }

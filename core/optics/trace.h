@@ -74,6 +74,11 @@ TracedRay trace_ray(const OpticalSystem& system, const GhostPath& path, const Ra
 /// The ray that crosses the plane z = 0 at (px, py) mm.
 Ray ray_at_entrance(const LightDirection& light, double px_mm, double py_mm);
 
+/// Distance inside the stop's edge over its semi-diameter: 1 at most, positive where it is open.
+/// A polygon's corners lie on the circle of the semi-diameter, the first at the rotation angle
+/// from +x; its edges are arcs of radius semi-diameter / blade_curvature.
+double stop_margin(const StopMask& mask, double u_mm, double v_mm);
+
 /// True where the stop is open.
 bool stop_passes(const StopMask& mask, double u_mm, double v_mm);
 

@@ -1,0 +1,213 @@
+#include "core/flare/flare_image.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/flare/ghost_mesh.h"
+#include "core/ghosts/cells.h"
+#include "core/ghosts/pupil.h"
+#include "core/parallel.h"
+
+namespace ghostlight {
+namespace {
+
+constexpr int band_rows = 16;
+constexpr int probe_cells = 8;
+
+using Clock = std::chrono::steady_clock;
+double ms_since(Clock::time_point began) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - began).count();
+}
+
+/// Mesh of one ghost at one wavelength, its edges and points sorted by the bands they touch.
+struct BandedMesh {
+    GhostMesh mesh;
+    std::vector<std::uint32_t> first_edge, edges;    ///< edges of band b: [first[b], first[b+1])
+    std::vector<std::uint32_t> first_point, points;
+    std::size_t rays = 0;
+};
+
+struct BandRange {
+    int first, last;
+};
+
+template <class Item, class RangeOf>
+void sort_by_band(const std::vector<Item>& items, int bands, RangeOf range_of,
+                  std::vector<std::uint32_t>& first, std::vector<std::uint32_t>& sorted) {
+    first.assign(static_cast<std::size_t>(bands) + 1, 0);
+    for (const Item& item : items) {
+        const BandRange range = range_of(item);
+        for (int b = range.first; b <= range.last; ++b) ++first[static_cast<std::size_t>(b) + 1];
+    }
+    for (std::size_t b = 1; b < first.size(); ++b) first[b] += first[b - 1];
+    sorted.resize(first.back());
+    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+    for (std::uint32_t i = 0; i < items.size(); ++i) {
+        const BandRange range = range_of(items[i]);
+        for (int b = range.first; b <= range.last; ++b) sorted[next[static_cast<std::size_t>(b)]++] = i;
+    }
+}
+
+void sort_into_bands(BandedMesh& banded, const PixelFrame& pixels, int bands) {
+    auto band_of = [&](double y) {
+        return static_cast<int>(std::clamp(y, 0.0, pixels.height_px - 0.5)) / band_rows;
+    };
+    sort_by_band(banded.mesh.edges, bands,
+                 [&](const RasterEdge& e) {
+                     return BandRange{band_of(std::min(e.y0, e.y1)), band_of(std::max(e.y0, e.y1))};
+                 },
+                 banded.first_edge, banded.edges);
+    sort_by_band(banded.mesh.points, bands,
+                 [&](const RasterPoint& p) { return BandRange{band_of(p.y), band_of(p.y)}; },
+                 banded.first_point, banded.points);
+}
+
+void add_band(const BandedMesh& banded, std::size_t band, BandRaster& raster) {
+    for (std::uint32_t k = banded.first_edge[band]; k < banded.first_edge[band + 1]; ++k)
+        raster.add(banded.mesh.edges[banded.edges[k]]);
+    for (std::uint32_t k = banded.first_point[band]; k < banded.first_point[band + 1]; ++k) {
+        const RasterPoint& p = banded.mesh.points[banded.points[k]];
+        raster.add_point(p.x, p.y, p.flux);
+    }
+}
+
+/// Flux with the polarisation carried over flux with the average at each surface.
+double polarised_gain(const OpticalSystem& system, const GhostPath& ghost, const BeamFrame& frame,
+                      const PupilBox& box) {
+    BundleGrid<float> grid = trace_grid(system, trace_path<float>(system, ghost), frame, box,
+                                        probe_cells, Weights::polarised);
+    auto flux = [&] {
+        double sum = 0.0;
+        for (int t = 0; t < 2 * grid.cells * grid.cells; ++t) {
+            const Piece piece = clip_triangle(grid, 1, t);
+            if (piece.count >= 3) sum += flux_mm2(piece);
+        }
+        return sum;
+    };
+    const double polarised = flux();
+    std::swap(grid.rays.weight, grid.rays.weight_average);
+    const double average = flux();
+    return average > 0.0 ? polarised / average : 1.0;
+}
+
+}  // namespace
+
+std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequest& request,
+                                       std::stop_token stop) {
+    const auto began = Clock::now();
+    const auto samples = sample(request.spectrum, request.spectral_samples);
+    const auto colors = sample_colors(request.spectrum, samples);
+    std::vector<OpticalSystem> systems;
+    for (const SpectralSample& s : samples) systems.push_back(compile(lens, s.wavelength_nm));
+    const std::vector<GhostPath> ghosts = two_reflection_ghosts(systems.front());
+    const BeamFrame frame = beam_frame(request.light);
+    const PixelFrame pixels = pixel_frame(systems.front().sensor_width_mm,
+                                          systems.front().sensor_height_mm, request.width_px);
+    const int bands = (pixels.height_px + band_rows - 1) / band_rows;
+
+    FlareImage image;
+    image.width_px = pixels.width_px;
+    image.height_px = pixels.height_px;
+    image.sensor_width_mm = systems.front().sensor_width_mm;
+    image.sensor_height_mm = systems.front().sensor_height_mm;
+    image.ghosts = ghosts.size();
+
+    // One task per ghost and wavelength; task t is ghost t / samples at wavelength t % samples.
+    const std::size_t tasks = ghosts.size() * samples.size();
+    std::vector<Pupil> pupils(tasks);
+    bool finished = parallel_for(tasks, request.threads, stop, [&](std::size_t t) {
+        const OpticalSystem& system = systems[t % samples.size()];
+        pupils[t] =
+            find_pupil(system, trace_path<double>(system, ghosts[t / samples.size()]), frame);
+    });
+    if (!finished) return std::nullopt;
+    image.times.bounds_ms = ms_since(began);
+
+    const auto traced = Clock::now();
+    std::vector<BandedMesh> meshes(tasks);
+    finished = parallel_for(tasks, request.threads, stop, [&](std::size_t t) {
+        if (pupils[t].empty) return;
+        const OpticalSystem& system = systems[t % samples.size()];
+        const GhostPath& ghost = ghosts[t / samples.size()];
+        const double gain = polarised_gain(system, ghost, frame, pupils[t].box);
+        const auto grid = trace_grid(system, trace_path<float>(system, ghost), frame,
+                                     pupils[t].box, request.grid, Weights::average);
+        meshes[t].mesh = ghost_mesh(grid, pixels, gain);
+        meshes[t].rays = grid.rays.size();
+        sort_into_bands(meshes[t], pixels, bands);
+    });
+    if (!finished) return std::nullopt;
+    image.times.trace_ms = ms_since(traced);
+
+    const auto rastered = Clock::now();
+    const std::size_t count = static_cast<std::size_t>(image.width_px) *
+                              static_cast<std::size_t>(image.height_px);
+    image.irradiance.assign(count, 0.0F);
+    image.rgb.assign(3 * count, 0.0F);
+    if (!request.highlighted.empty()) image.highlight.assign(count, 0.0F);
+    auto is_highlighted = [&](std::size_t t) {
+        return std::ranges::find(request.highlighted, ghosts[t / samples.size()]) !=
+               request.highlighted.end();
+    };
+    finished = parallel_for(static_cast<std::size_t>(bands), request.threads, stop, [&](std::size_t b) {
+        const int first_row = static_cast<int>(b) * band_rows;
+        const int rows = std::min(band_rows, pixels.height_px - first_row);
+        BandRaster raster(pixels.width_px, first_row, rows);
+        std::vector<double> values(static_cast<std::size_t>(pixels.width_px) *
+                                   static_cast<std::size_t>(rows));
+        const std::size_t offset = static_cast<std::size_t>(first_row) *
+                                   static_cast<std::size_t>(pixels.width_px);
+        auto put = [&](std::size_t s, bool highlight) {
+            raster.resolve(values);
+            for (std::size_t i = 0; i < values.size(); ++i) {
+                // What rounding leaves below zero is no light.
+                const float value =
+                    static_cast<float>(std::max(0.0, values[i]) * samples[s].weight);
+                image.irradiance[offset + i] += value;
+                float* rgb = &image.rgb[3 * (offset + i)];
+                rgb[0] += value * static_cast<float>(colors[s].r);
+                rgb[1] += value * static_cast<float>(colors[s].g);
+                rgb[2] += value * static_cast<float>(colors[s].b);
+                if (highlight) image.highlight[offset + i] += value;
+            }
+        };
+        for (std::size_t s = 0; s < samples.size(); ++s) {
+            for (const bool highlight : {false, true}) {
+                if (highlight && request.highlighted.empty()) continue;
+                for (std::size_t t = s; t < tasks; t += samples.size())
+                    if (!meshes[t].first_edge.empty() && is_highlighted(t) == highlight)
+                        add_band(meshes[t], b, raster);
+                put(s, highlight);
+            }
+        }
+    });
+    if (!finished) return std::nullopt;
+    image.times.raster_ms = ms_since(rastered);
+    for (std::size_t t = 0; t < tasks; ++t) {
+        image.flux_mm2 += samples[t % samples.size()].weight * meshes[t].mesh.flux_mm2;
+        image.rays += meshes[t].rays + pupils[t].rays;
+        image.cells += meshes[t].mesh.cells;
+    }
+    double sum = 0.0;
+    for (const float value : image.irradiance) sum += static_cast<double>(value);
+    image.flux_on_sensor_mm2 = sum * pixels.pixel_area_mm2();
+    image.times.total_ms = ms_since(began);
+    return image;
+}
+
+std::vector<float> upright_picture(const std::vector<float>& data, int width_px, int height_px,
+                                   int channels) {
+    std::vector<float> picture(data.size());
+    for (int row = 0; row < height_px; ++row)
+        for (int column = 0; column < width_px; ++column)
+            for (int c = 0; c < channels; ++c) {
+                const auto at = [&](int i) {
+                    return static_cast<std::size_t>((row * width_px + i) * channels + c);
+                };
+                picture[at(column)] = data[at(width_px - 1 - column)];
+            }
+    return picture;
+}
+
+}  // namespace ghostlight

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/optics/trace_path.h"
+
+namespace ghostlight {
+
+/// A bundle as the kernels see it: plain arrays whose length is a multiple of `bundle_padding`.
+template <class T>
+struct BundleView {
+    const TraceStep<T>* steps;
+    std::size_t step_count;
+    const T* aspheric;
+    const LayerAt<T>* layers;
+    T sensor_gap_mm;
+    T direction[3], e1[3], e2[3];
+    std::size_t count;
+    const T *u, *v;
+    T *x, *y, *weight, *weight_average, *margin, *r_rel;
+    T* const* stop_u;
+    T* const* stop_v;
+    T* reflectance[2];
+    int weights;  ///< Weights, as a number
+};
+
+/// Lanes of the widest instruction set, for the narrowest type.
+inline constexpr std::size_t bundle_padding = 16;
+
+#ifdef GHOSTLIGHT_HAVE_X86_ISA
+#define GHOSTLIGHT_BUNDLE_KERNELS(set)                 \
+    namespace set {                                    \
+    void trace_bundle_lanes(const BundleView<float>&);  \
+    void trace_bundle_lanes(const BundleView<double>&); \
+    }
+GHOSTLIGHT_BUNDLE_KERNELS(kernels_v2)
+GHOSTLIGHT_BUNDLE_KERNELS(kernels_v3)
+#else
+namespace kernels_generic {
+void trace_bundle_lanes(const BundleView<float>&);
+void trace_bundle_lanes(const BundleView<double>&);
+}  // namespace kernels_generic
+#endif
+
+}  // namespace ghostlight

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/ghosts/bundle.h"
+
+namespace ghostlight {
+
+/// A rectangle on the plane across the beam, mm.
+struct PupilBox {
+    double u0_mm = 0.0, u1_mm = 0.0, v0_mm = 0.0, v1_mm = 0.0;
+    double area_mm2() const { return (u1_mm - u0_mm) * (v1_mm - v0_mm); }
+};
+
+/// Where rays of a path may pass.
+struct Pupil {
+    PupilBox box;
+    bool empty = true;
+    std::size_t rays = 0;  ///< spent in looking
+};
+
+/// The box around the first surface's clear cap, as the beam sees it.
+PupilBox entrance_box(const OpticalSystem& system, const BeamFrame& frame);
+
+/// Looks for the part of the entrance that reaches the sensor along `path`: cells that may hold a
+/// passing ray, judged by their corners' clearances and stop coordinates with a safety margin, are
+/// split until the passing region is a dozen cells wide. Follows the stop: a small stop's
+/// pre-image is found however small it is.
+Pupil find_pupil(const OpticalSystem& system, const TracePath<double>& path,
+                 const BeamFrame& frame);
+
+/// (cells + 1)² points over a box, row by row from v0 and u0.
+template <class T>
+void lay_grid(const PupilBox& box, int cells, Bundle<T>& bundle);
+
+}  // namespace ghostlight
