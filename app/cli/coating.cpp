@@ -78,8 +78,11 @@ void run(const CoatingOptions& options) {
     if (!options.stack.empty()) {
         report.request.emplace_back("stack", json_string(options.stack));
         report.heading = fmt::format("{}, angle in the first medium", options.stack);
-        report.table = reflectance_table([&](double nm) { return parse_stack(options.stack, nm); },
-                                         wavelengths_nm, angles_deg);
+        report.table = reflectance_table(
+            [&](double nm) {
+                return read_option("--stack", [&] { return parse_stack(options.stack, nm); });
+            },
+            wavelengths_nm, angles_deg);
         write_report(report, options.output);
         return;
     }

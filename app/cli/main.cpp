@@ -47,7 +47,8 @@ int run(std::vector<std::string> arguments) {
     CLI::App program("Ghostlight: ghosts and flare of a lens, from its prescription.",
                      "ghostlight-cli");
     program.set_help_flag("-h,--help", "print this help and exit");
-    program.set_version_flag("--version", "ghostlight-cli " GHOSTLIGHT_VERSION);
+    program.set_version_flag("--version", "ghostlight-cli " GHOSTLIGHT_VERSION,
+                             "print the version and exit");
     program.require_subcommand(1);
     program.footer(examples);
     program.get_formatter()->column_width(32);
@@ -63,7 +64,8 @@ int run(std::vector<std::string> arguments) {
         program.parse(std::move(arguments));
     } catch (const CLI::CallForHelp&) {
         const auto chosen = program.get_subcommands();
-        write_standard_output((chosen.empty() ? &program : chosen.front())->help());
+        write_standard_output(chosen.empty() ? program.help()
+                                             : chosen.front()->help("ghostlight-cli"));
     } catch (const CLI::CallForVersion& version) {
         write_standard_output(std::string(version.what()) + "\n");
     }

@@ -258,7 +258,8 @@ LoadedLens load_lens(const LensOptions& options) {
     for (const Configuration& configuration : lens.configurations)
         loaded.configurations.push_back(configuration.name);
     loaded.configuration = options.config;
-    loaded.lens = configured(lens, options.config);
+    loaded.lens =
+        read_option("--config", [&, &listed = lens] { return configured(listed, options.config); });
     override_stop(loaded.lens, options);
     if (!options.sensor.empty()) override_sensor(loaded.lens.sensor, options.sensor);
     if (!options.coating.empty())

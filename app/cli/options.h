@@ -20,6 +20,18 @@ namespace ghostlight::cli {
 /// The value of an option that does not do: which option, what was found, what was expected.
 Error bad_value(std::string_view option, std::string_view found, std::string_view expected);
 
+/// What the core says of an option's value, with the option's name in front.
+template <typename Read>
+auto read_option(std::string_view option, const Read& read) {
+    try {
+        return read();
+    } catch (const Error& error) {
+        Error::Parts parts = error.parts();
+        parts.where = std::string(option) + (parts.where.empty() ? "" : ": " + parts.where);
+        throw Error(std::move(parts));
+    }
+}
+
 /// "a, b, c"
 std::string joined(const std::vector<std::string>& texts, std::string_view separator);
 

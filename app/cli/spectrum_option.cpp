@@ -15,7 +15,8 @@ void add_spectrum(CLI::App& command, SpectrumOptions& options) {
 Spectrum spectrum_of(const SpectrumOptions& options) {
     if (!options.wavelength.empty())
         return Monochromatic{wavelength_value("--wavelength", options.wavelength)};
-    if (!options.spectrum.empty()) return parse_spectrum(options.spectrum);
+    if (!options.spectrum.empty())
+        return read_option("--spectrum", [&] { return parse_spectrum(options.spectrum); });
     return Monochromatic{};
 }
 

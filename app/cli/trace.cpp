@@ -59,7 +59,8 @@ void run(const TraceOptions& options) {
     const double wavelength_nm = wavelength_value("--wavelength", options.wavelength);
     const LoadedLens loaded = load_lens(options.lens);
     const OpticalSystem system = compile(loaded.lens, wavelength_nm);
-    const GhostPath path = parse_ghost(options.ghost, system);
+    const GhostPath path =
+        read_option("--ghost", [&] { return parse_ghost(options.ghost, system); });
     const std::vector<glm::dvec2> rays = read_rays(options.rays);
 
     Report report;
