@@ -14,6 +14,7 @@ namespace {
 
 constexpr int band_rows = 16;
 constexpr int probe_cells = 8;
+constexpr int split_cells = 4;
 
 using Clock = std::chrono::steady_clock;
 double ms_since(Clock::time_point began) {
@@ -75,18 +76,19 @@ void add_band(const BandedMesh& banded, std::size_t band, BandRaster& raster) {
 /// Flux with the polarisation carried over flux with the average at each surface.
 double polarised_gain(const OpticalSystem& system, const GhostPath& ghost, const BeamFrame& frame,
                       const PupilBox& box) {
-    BundleGrid<float> grid = trace_grid(system, trace_path<float>(system, ghost), frame, box,
-                                        probe_cells, Weights::polarised);
+    SplitGrid<float> grid = trace_grid(system, trace_path<float>(system, ghost), frame, box,
+                                       probe_cells, split_cells, Weights::polarised);
     auto flux = [&] {
         double sum = 0.0;
-        for (int t = 0; t < 2 * grid.cells * grid.cells; ++t) {
-            const Piece piece = clip_triangle(grid, 1, t);
-            if (piece.count >= 3) sum += flux_mm2(piece);
-        }
+        for_each_piece(grid, 1, [&](const BundleGrid<float>&, int, const Piece& piece) {
+            sum += flux_mm2(piece);
+        });
         return sum;
     };
     const double polarised = flux();
-    std::swap(grid.rays.weight, grid.rays.weight_average);
+    std::swap(grid.base.rays.weight, grid.base.rays.weight_average);
+    for (BundleGrid<float>& split : grid.splits)
+        std::swap(split.rays.weight, split.rays.weight_average);
     const double average = flux();
     return average > 0.0 ? polarised / average : 1.0;
 }
@@ -132,9 +134,9 @@ std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequ
         const GhostPath& ghost = ghosts[t / samples.size()];
         const double gain = polarised_gain(system, ghost, frame, pupils[t].box);
         const auto grid = trace_grid(system, trace_path<float>(system, ghost), frame,
-                                     pupils[t].box, request.grid, Weights::average);
+                                     pupils[t].box, request.grid, split_cells, Weights::average);
         meshes[t].mesh = ghost_mesh(grid, pixels, gain);
-        meshes[t].rays = grid.rays.size();
+        meshes[t].rays = grid.rays();
         sort_into_bands(meshes[t], pixels, bands);
     });
     if (!finished) return std::nullopt;

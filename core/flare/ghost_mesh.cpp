@@ -22,20 +22,23 @@ double signed_area(const Point& a, const Point& b, const Point& c) {
 template <class T>
 class MeshBuilder {
    public:
-    MeshBuilder(const BundleGrid<T>& grid, const PixelFrame& frame, double gain)
-        : grid_(grid), frame_(frame), gain_(gain) {}
+    MeshBuilder(const SplitGrid<T>& all, const PixelFrame& frame, double gain)
+        : all_(all), grid_(all.base), frame_(frame), gain_(gain) {}
 
     GhostMesh build() {
         place_nodes();
         average_irradiance();
         const int triangles = 2 * grid_.cells * grid_.cells;
         values_.assign(static_cast<std::size_t>(triangles), {});
-        for (int t = 0; t < triangles; ++t) add(clip_triangle(grid_, 1, t));
+        for_each_piece(all_, 1, [&](const BundleGrid<T>& on, int, const Piece& piece) {
+            add(piece, &on == &grid_);
+        });
         add_shared_edges();
         return std::move(mesh_);
     }
 
    private:
+    const SplitGrid<T>& all_;
     const BundleGrid<T>& grid_;
     const PixelFrame& frame_;
     double gain_;
@@ -98,8 +101,8 @@ class MeshBuilder {
         return value;
     }
 
-    void add(const Piece& piece) {
-        if (piece.count < 3) return;
+    /// Pieces of split cells stand alone, with a constant irradiance each.
+    void add(const Piece& piece, bool on_base) {
         const double flux = gain_ * flux_mm2(piece);
         if (flux == 0.0) return;
         mesh_.flux_mm2 += flux;
@@ -123,10 +126,11 @@ class MeshBuilder {
         const double size = std::abs(area);
         if (size < least_area_px2) return add_points(corner, piece.count, flux_px);
 
-        const LinearValue value = linear_value(piece, corner, size, flux_px);
+        const LinearValue value = on_base ? linear_value(piece, corner, size, flux_px)
+                                          : LinearValue{flux_px / size, 0.0, 0.0};
         // Clockwise pieces add, so a counter-clockwise one is drawn with the opposite sign.
         const LinearValue drawn = area > 0.0 ? -1.0 * value : value;
-        if (piece.whole) {
+        if (piece.whole && on_base) {
             values_[idx(piece.triangle)] = drawn;
         } else {
             for (int k = 0; k < piece.count; ++k)
@@ -192,15 +196,23 @@ class MeshBuilder {
             return values_[idx(2 * (j * across + i) + half)];
         };
         auto node = [&](int i, int j) -> const Point& { return nodes_[idx(j * side + i)]; };
-        // Triangle 0 is (a, b, c), triangle 1 is (d, c, b): a, b below, c, d above.
+        // Below a cell's diagonal lies its triangle 0, above it triangle 1 (see triangle_nodes).
+        auto mirrored = [&](int i) { return 2 * i >= across; };
+        auto left = [&](int i, int j) { return value(i, j, mirrored(i) ? 1 : 0); };
+        auto right = [&](int i, int j) { return value(i, j, mirrored(i) ? 0 : 1); };
         for (int j = 0; j <= across; ++j)
             for (int i = 0; i <= across; ++i) {
                 if (i < across)
                     emit(node(i, j), node(i + 1, j), value(i, j, 0) - value(i, j - 1, 1));
                 if (j < across)
-                    emit(node(i, j + 1), node(i, j), value(i, j, 0) - value(i - 1, j, 1));
-                if (i < across && j < across)
-                    emit(node(i + 1, j), node(i, j + 1), value(i, j, 0) - value(i, j, 1));
+                    emit(node(i, j + 1), node(i, j), left(i, j) - right(i - 1, j));
+                if (i < across && j < across) {
+                    const LinearValue across_diagonal = value(i, j, 0) - value(i, j, 1);
+                    if (mirrored(i))
+                        emit(node(i + 1, j + 1), node(i, j), across_diagonal);
+                    else
+                        emit(node(i + 1, j), node(i, j + 1), across_diagonal);
+                }
             }
     }
 };
@@ -218,10 +230,10 @@ PixelFrame pixel_frame(double sensor_width_mm, double sensor_height_mm, int widt
 }
 
 template <class T>
-GhostMesh ghost_mesh(const BundleGrid<T>& grid, const PixelFrame& frame, double gain) {
+GhostMesh ghost_mesh(const SplitGrid<T>& grid, const PixelFrame& frame, double gain) {
     return MeshBuilder<T>(grid, frame, gain).build();
 }
-template GhostMesh ghost_mesh(const BundleGrid<float>&, const PixelFrame&, double);
-template GhostMesh ghost_mesh(const BundleGrid<double>&, const PixelFrame&, double);
+template GhostMesh ghost_mesh(const SplitGrid<float>&, const PixelFrame&, double);
+template GhostMesh ghost_mesh(const SplitGrid<double>&, const PixelFrame&, double);
 
 }  // namespace ghostlight

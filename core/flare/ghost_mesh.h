@@ -37,6 +37,6 @@ struct GhostMesh {
 /// over the piece (from areas averaged at the grid's nodes) and scaled so that its integral is the
 /// piece's flux. What is off the frame on a side that cannot matter is dropped, its flux counted.
 template <class T>
-GhostMesh ghost_mesh(const BundleGrid<T>& grid, const PixelFrame& frame, double gain);
+GhostMesh ghost_mesh(const SplitGrid<T>& grid, const PixelFrame& frame, double gain);
 
 }  // namespace ghostlight

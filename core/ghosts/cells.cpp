@@ -5,9 +5,12 @@
 
 namespace ghostlight {
 
+namespace {
+
 template <class T>
-BundleGrid<T> trace_grid(const OpticalSystem& system, const TracePath<T>& path,
-                         const BeamFrame& frame, const PupilBox& box, int cells, Weights weights) {
+BundleGrid<T> trace_cells(const OpticalSystem& system, const TracePath<T>& path,
+                          const BeamFrame& frame, const PupilBox& box, int cells,
+                          Weights weights) {
     BundleGrid<T> grid;
     grid.cells = cells;
     lay_grid(box, cells, grid.rays);
@@ -16,12 +19,56 @@ BundleGrid<T> trace_grid(const OpticalSystem& system, const TracePath<T>& path,
     grid.clearances.push_back(grid.rays.margin);
     std::vector<T>& clear = grid.clearances.emplace_back(count);
     for (std::size_t i = 0; i < count; ++i) clear[i] = T(1) - grid.rays.r_rel[i];
-    for (int k = 0; k < grid.rays.stop_crossings; ++k) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(grid.rays.stop_crossings); ++k) {
         std::vector<T>& open = grid.clearances.emplace_back(count);
         const auto& u = grid.rays.stop_u_mm[k];
         const auto& v = grid.rays.stop_v_mm[k];
         for (std::size_t i = 0; i < count; ++i)
             open[i] = static_cast<T>(stop_margin(system.stop_mask, u[i], v[i]));
+    }
+    return grid;
+}
+
+/// Within a cell of where rays begin to fail, unless something else stops them all.
+template <class T>
+bool is_singular(const BundleGrid<T>& grid, int cell) {
+    const int side = grid.cells + 1;
+    const int a = cell / grid.cells * side + cell % grid.cells;
+    const int corners[4] = {a, a + 1, a + side, a + side + 1};
+    auto range = [&](const std::vector<T>& values) {
+        T low = values[static_cast<std::size_t>(a)], high = low;
+        for (const int c : corners) {
+            low = std::min(low, values[static_cast<std::size_t>(c)]);
+            high = std::max(high, values[static_cast<std::size_t>(c)]);
+        }
+        return std::pair{low, high};
+    };
+    const auto [low, high] = range(grid.clearances[0]);
+    if (high < T(0) || low > high - low) return false;
+    for (std::size_t k = 1; k < grid.clearances.size(); ++k) {
+        const auto [least, most] = range(grid.clearances[k]);
+        if (most + T(0.5) * (most - least) < T(0)) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+template <class T>
+SplitGrid<T> trace_grid(const OpticalSystem& system, const TracePath<T>& path,
+                        const BeamFrame& frame, const PupilBox& box, int cells, int split_cells,
+                        Weights weights) {
+    SplitGrid<T> grid;
+    grid.base = trace_cells(system, path, frame, box, cells, weights);
+    grid.split_of_cell.assign(static_cast<std::size_t>(cells * cells), -1);
+    for (int cell = 0; cell < cells * cells; ++cell) {
+        if (!is_singular(grid.base, cell)) continue;
+        auto u = [&](int i) { return std::lerp(box.u0_mm, box.u1_mm, static_cast<double>(i) / cells); };
+        auto v = [&](int j) { return std::lerp(box.v0_mm, box.v1_mm, static_cast<double>(j) / cells); };
+        const int i = cell % cells, j = cell / cells;
+        grid.split_of_cell[static_cast<std::size_t>(cell)] = static_cast<int>(grid.splits.size());
+        grid.splits.push_back(trace_cells(system, path, frame,
+                                          {u(i), u(i + 1), v(j), v(j + 1)}, split_cells, weights));
     }
     return grid;
 }
@@ -66,15 +113,33 @@ Piece clip_triangle(const BundleGrid<T>& grid, int stride, int triangle) {
         std::copy_n(kept, count, corners);
     }
     const Bundle<T>& rays = grid.rays;
+    // A failed ray's sensor point means nothing: it takes the mean of its valid neighbours'.
+    double x[3], y[3], x_mean = 0.0, y_mean = 0.0;
+    int valid = 0;
+    for (int s = 0; s < 3; ++s) {
+        const auto node = static_cast<std::size_t>(nodes.node[s]);
+        x[s] = static_cast<double>(rays.x_mm[node]);
+        y[s] = static_cast<double>(rays.y_mm[node]);
+        if (rays.margin[node] < T(0)) continue;
+        x_mean += x[s];
+        y_mean += y[s];
+        ++valid;
+    }
+    for (int s = 0; s < 3 && valid > 0; ++s)
+        if (rays.margin[static_cast<std::size_t>(nodes.node[s])] < T(0)) {
+            x[s] = x_mean / valid;
+            y[s] = y_mean / valid;
+        }
     for (int k = 0; k < count; ++k) {
+        const double* share = corners[k].share;
+        auto mixed = [&](const double* p) { return share[0] * p[0] + share[1] * p[1] + share[2] * p[2]; };
         auto at = [&](const std::vector<T>& values) {
             double sum = 0.0;
             for (int s = 0; s < 3; ++s)
-                sum += corners[k].share[s] * static_cast<double>(values[nodes.node[s]]);
+                sum += share[s] * static_cast<double>(values[static_cast<std::size_t>(nodes.node[s])]);
             return sum;
         };
-        piece.corners[k] = {at(rays.u_mm), at(rays.v_mm), at(rays.x_mm), at(rays.y_mm),
-                            at(rays.weight)};
+        piece.corners[k] = {at(rays.u_mm), at(rays.v_mm), mixed(x), mixed(y), at(rays.weight)};
     }
     piece.count = count;
     return piece;
@@ -93,10 +158,10 @@ double flux_mm2(const Piece& piece) {
     return sum;
 }
 
-template BundleGrid<float> trace_grid(const OpticalSystem&, const TracePath<float>&,
-                                      const BeamFrame&, const PupilBox&, int, Weights);
-template BundleGrid<double> trace_grid(const OpticalSystem&, const TracePath<double>&,
-                                       const BeamFrame&, const PupilBox&, int, Weights);
+template SplitGrid<float> trace_grid(const OpticalSystem&, const TracePath<float>&,
+                                     const BeamFrame&, const PupilBox&, int, int, Weights);
+template SplitGrid<double> trace_grid(const OpticalSystem&, const TracePath<double>&,
+                                      const BeamFrame&, const PupilBox&, int, int, Weights);
 template Piece clip_triangle(const BundleGrid<float>&, int, int);
 template Piece clip_triangle(const BundleGrid<double>&, int, int);
 

@@ -10,7 +10,8 @@ namespace {
 
 constexpr int coarsest_grid = 16;
 constexpr int finest_grid = 512;
-constexpr int mesh_grid = 32;  ///< at least, for irradiance
+constexpr int mesh_grid = 32;   ///< at least, for irradiance
+constexpr int split_cells = 8;  ///< across a singular cell
 
 /// First and second moments of weight dA over a piece: the edge midpoints' rule on a fan of
 /// triangles, exact for quadratics.
@@ -45,35 +46,30 @@ double flux_on_sensor(const Piece& piece, double half_width_mm, double half_heig
     return part.count < 3 ? 0.0 : flux_mm2(part);
 }
 
-double flux_at_stride(const BundleGrid<double>& grid, int stride) {
-    const int across = grid.cells / stride;
+double flux_at_stride(const SplitGrid<double>& grid, int stride) {
     double flux = 0.0;
-    for (int t = 0; t < 2 * across * across; ++t) {
-        const Piece piece = clip_triangle(grid, stride, t);
-        if (piece.count >= 3) flux += flux_mm2(piece);
-    }
+    for_each_piece(grid, stride, [&](const BundleGrid<double>&, int, const Piece& piece) {
+        flux += flux_mm2(piece);
+    });
     return flux;
 }
 
-FluxSums sums_of(const BundleGrid<double>& grid, const OpticalSystem& system) {
+FluxSums sums_of(const SplitGrid<double>& grid, const OpticalSystem& system) {
     FluxSums sums;
-    const auto& rays = grid.rays;
-    for (int t = 0; t < 2 * grid.cells * grid.cells; ++t) {
-        const Piece piece = clip_triangle(grid, 1, t);
-        if (piece.count < 3) continue;
+    for_each_piece(grid, 1, [&](const BundleGrid<double>& on, int stride, const Piece& piece) {
         const double flux = flux_mm2(piece);
         sums.flux += flux;
         sums.on_sensor +=
             flux_on_sensor(piece, 0.5 * system.sensor_width_mm, 0.5 * system.sensor_height_mm);
         add_moments(piece, sums);
-        const TriangleNodes nodes = triangle_nodes(grid.cells, 1, t);
-        for (int k = 0; k < 2; ++k) {
+        const TriangleNodes nodes = triangle_nodes(on.cells, stride, piece.triangle);
+        for (std::size_t k = 0; k < 2; ++k) {
             double mean = 0.0;
             for (const int node : nodes.node)
-                mean += rays.reflectance[static_cast<std::size_t>(k)][static_cast<std::size_t>(node)] / 3.0;
+                mean += on.rays.reflectance[k][static_cast<std::size_t>(node)] / 3.0;
             sums.reflectance[k] += flux * mean;
         }
-    }
+    });
     return sums;
 }
 
@@ -120,20 +116,22 @@ void PathQuadrature::refine(PathFlux& flux, double share, double floor_mm2,
 GhostMesh PathQuadrature::mesh(PathFlux& flux, const PixelFrame& pixels, double gain) const {
     if (flux.empty) return {};
     const int cells = std::max(flux.cells, mesh_grid);
-    const auto grid = trace_grid(system_, path_, frame_, flux.box, cells, Weights::polarised);
-    flux.rays += grid.rays.size();
+    const auto grid = trace_grid(system_, path_, frame_, flux.box, cells, split_cells,
+                                 Weights::polarised);
+    flux.rays += grid.rays();
     return ghost_mesh(grid, pixels, gain);
 }
 
 /// The grid holds the two coarser ones: the quadrature is second order, so the difference to the
 /// next coarser is about three times its error; the one before that guards against chance.
 void PathQuadrature::integrate(PathFlux& flux, int cells) const {
-    const auto grid = trace_grid(system_, path_, frame_, flux.box, cells, Weights::polarised);
+    const auto grid = trace_grid(system_, path_, frame_, flux.box, cells, split_cells,
+                                 Weights::polarised);
     flux.sums = sums_of(grid, system_);
     flux.cells = cells;
-    flux.rays += grid.rays.size();
+    flux.rays += grid.rays();
     const double half = flux_at_stride(grid, 2), quarter = flux_at_stride(grid, 4);
-    flux.error_mm2 = std::max(std::abs(flux.sums.flux - half), 0.25 * std::abs(half - quarter));
+    flux.error_mm2 = std::abs(flux.sums.flux - half) + 0.25 * std::abs(half - quarter);
 }
 
 }  // namespace ghostlight

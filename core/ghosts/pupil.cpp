@@ -15,7 +15,8 @@ namespace {
 constexpr int first_level_cells = 16;
 constexpr int finest_level = 12;
 constexpr int wanted_cells_across = 12;
-constexpr std::size_t enough_cells = 800;
+constexpr int tight_level = 4;
+constexpr std::size_t enough_cells = 4000;
 
 struct Cell {
     std::uint32_t i, j;
@@ -69,8 +70,9 @@ Nodes trace_nodes(const TracePath<double>& path, const BeamFrame& frame, const P
 }
 
 /// Whether a ray through the cell may pass, if the map does not bend by more than `share` of its
-/// change across the cell.
-bool may_pass(const Nodes& nodes, const Cell& cell, double stop_radius_mm, double share) {
+/// change across the cell. A cell whose corners all fail is kept on the first levels only.
+bool may_pass(const Nodes& nodes, const Cell& cell, int level, double stop_radius_mm) {
+    double share = level == 0 ? 0.75 : 0.4;
     const Bundle<double>& rays = nodes.rays;
     Range margin, clearance;
     std::size_t corner[4];
@@ -82,7 +84,7 @@ bool may_pass(const Nodes& nodes, const Cell& cell, double stop_radius_mm, doubl
     }
     margin.widen(share);
     if (margin.high < 0.0) return false;
-    if (valid == 0) return true;
+    if (valid == 0) return level < 2;
     // Past a miss or total reflection the map is only continued: trust the valid corners alone.
     if (valid < 4) share = std::max(1.0, 2.0 * share);
     for (const std::size_t c : corner)
@@ -102,6 +104,23 @@ bool may_pass(const Nodes& nodes, const Cell& cell, double stop_radius_mm, doubl
         if (std::hypot(u.distance(), v.distance()) > stop_radius_mm) return false;
     }
     return true;
+}
+
+/// Whether the nodes that do pass reach to within two cells of the candidates' bounds.
+bool is_tight(const Nodes& nodes, const Range& i, const Range& j, double stop_radius_mm) {
+    const Bundle<double>& rays = nodes.rays;
+    Range pass_i, pass_j;
+    for (std::size_t n = 0; n < nodes.keys.size(); ++n) {
+        bool passes = rays.margin[n] >= 0.0 && rays.r_rel[n] <= 1.0;
+        for (int k = 0; k < rays.stop_crossings; ++k)
+            passes = passes &&
+                     std::hypot(rays.stop_u_mm[k][n], rays.stop_v_mm[k][n]) <= stop_radius_mm;
+        if (!passes) continue;
+        pass_i.add(static_cast<double>(nodes.keys[n] & 0xffffffffU));
+        pass_j.add(static_cast<double>(nodes.keys[n] >> 32));
+    }
+    return pass_i.low <= i.low + 2.0 && pass_i.high >= i.high - 2.0 && pass_j.low <= j.low + 2.0 &&
+           pass_j.high >= j.high - 2.0;
 }
 
 }  // namespace
@@ -142,9 +161,8 @@ Pupil find_pupil(const OpticalSystem& system, const TracePath<double>& path,
     for (int level = 0;; ++level, across *= 2) {
         const Nodes nodes = trace_nodes(path, frame, whole, across, cells);
         pupil.rays += nodes.keys.size();
-        const double share = level == 0 ? 0.75 : 0.4;
         std::erase_if(cells, [&](const Cell& cell) {
-            return !may_pass(nodes, cell, stop_radius_mm, share);
+            return !may_pass(nodes, cell, level, stop_radius_mm);
         });
         if (cells.empty()) return pupil;
         Range i, j;
@@ -155,8 +173,9 @@ Pupil find_pupil(const OpticalSystem& system, const TracePath<double>& path,
             j.add(cell.j + 1.0);
         }
         const double narrow = std::min(i.high - i.low, j.high - j.low);
-        const bool resolved = narrow >= wanted_cells_across || cells.size() >= enough_cells;
-        if (resolved || level == finest_level) {
+        const bool resolved = narrow >= wanted_cells_across &&
+                              (is_tight(nodes, i, j, stop_radius_mm) || level >= tight_level);
+        if (resolved || cells.size() >= enough_cells || level == finest_level) {
             const double du = (whole.u1_mm - whole.u0_mm) / across;
             const double dv = (whole.v1_mm - whole.v0_mm) / across;
             pupil.box = {whole.u0_mm + du * i.low, whole.u0_mm + du * i.high,
