@@ -1,8 +1,8 @@
 #pragma once
 
 #include <QFont>
-#include <QWidget>
 #include <QString>
+#include <QWidget>
 
 class QPainter;
 class QRect;

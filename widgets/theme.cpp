@@ -13,9 +13,7 @@ namespace ghostlight {
 namespace {
 
 QColor mixed(const QColor& a, const QColor& b, double share_of_b) {
-    const auto channel = [&](int from, int to) {
-        return qRound(from + (to - from) * share_of_b);
-    };
+    const auto channel = [&](int from, int to) { return qRound(from + (to - from) * share_of_b); };
     return {channel(a.red(), b.red()), channel(a.green(), b.green()), channel(a.blue(), b.blue())};
 }
 
@@ -40,8 +38,8 @@ QPalette qt_palette(const Palette& colors) {
     palette.setColor(QPalette::Mid, colors.line);
     palette.setColor(QPalette::Dark, colors.ground);
     palette.setColor(QPalette::Shadow, colors.ground);
-    for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText,
-                            QPalette::HighlightedText}) {
+    for (const auto role :
+         {QPalette::WindowText, QPalette::Text, QPalette::ButtonText, QPalette::HighlightedText}) {
         palette.setColor(QPalette::Disabled, role, mixed(colors.dim, colors.panel, 0.35));
     }
     return palette;

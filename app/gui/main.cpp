@@ -1,0 +1,140 @@
+// The window. Its options are few: what it shows is in the lens file.
+
+#include <QApplication>
+#include <QCommandLineParser>
+#include <QLocale>
+#include <QSurfaceFormat>
+
+#include <clocale>
+#include <cstdio>
+#include <exception>
+#include <optional>
+#include <string>
+
+#include "widgets/main_window.h"
+#include "widgets/panels/banner.h"
+#include "widgets/settings.h"
+#include "widgets/snapshot.h"
+#include "widgets/theme.h"
+
+#ifndef GHOSTLIGHT_VERSION
+#define GHOSTLIGHT_VERSION "0.1.0"
+#endif
+
+namespace {
+
+constexpr int bad_usage = 2;
+
+constexpr const char* usage_text = R"(Usage: ghostlight [OPTIONS] [LENS]
+
+Opens the lens-flare workbench, on a lens file if one is given.
+
+  --snapshot DIR  open LENS, wait until all views are ready, write workbench.png, ghosts.csv and
+                  flare.exr into DIR, and exit
+  --size WxH      size of the window in pixels, e.g. 1366x768
+  --help          this text
+  --version       the version
+
+Exit status: 0, or 2 with one line on stderr.
+)";
+
+int fail(const std::string& reason) {
+    std::fprintf(stderr, "ghostlight: %s\n", reason.c_str());
+    return bad_usage;
+}
+
+std::optional<QSize> parse_size(const QString& text) {
+    const QStringList parts = text.split('x');
+    bool width_ok = false;
+    bool height_ok = false;
+    const QSize size(parts.value(0).toInt(&width_ok), parts.value(1).toInt(&height_ok));
+    constexpr int least = 320;
+    constexpr int most = 16384;
+    const bool sound = parts.size() == 2 && width_ok && height_ok && size.width() >= least &&
+                       size.height() >= least && size.width() <= most && size.height() <= most;
+    return sound ? std::optional(size) : std::nullopt;
+}
+
+void set_surface_format() {
+    // VTK needs a core context of 3.2 or later; one format for all, since contexts are shared.
+    QSurfaceFormat format;
+    format.setRenderableType(QSurfaceFormat::OpenGL);
+    format.setVersion(3, 3);
+    format.setProfile(QSurfaceFormat::CoreProfile);
+    format.setDepthBufferSize(24);
+    format.setStencilBufferSize(8);
+    format.setAlphaBufferSize(8);
+    format.setSwapInterval(0);  // a picture is shown when it is ready
+    QSurfaceFormat::setDefaultFormat(format);
+    QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
+}
+
+int run(QApplication& application, const QCommandLineParser& options) {
+    const QStringList files = options.positionalArguments();
+    const bool snapshot = options.isSet("snapshot");
+    if (files.size() > 1) {
+        return fail("one lens at a time; found " + std::to_string(files.size()) + " files");
+    }
+    if (snapshot && files.isEmpty()) {
+        return fail("--snapshot needs a lens file");
+    }
+    std::optional<QSize> size;
+    if (options.isSet("size") && !(size = parse_size(options.value("size")))) {
+        return fail("--size: found " + options.value("size").toStdString() +
+                    ", expected WIDTHxHEIGHT, e.g. 1366x768");
+    }
+    ghostlight::apply_theme(application,
+                            snapshot ? ghostlight::Theme::dark : ghostlight::settings::theme());
+    ghostlight::MainWindow window(!snapshot);
+    if (size) {
+        window.resize(*size);
+        window.arrange_panels();
+    }
+    const bool opened = files.isEmpty() || window.open(files.front().toStdString());
+    if (snapshot && !opened) {
+        return fail(window.banner().text().toStdString());
+    }
+    window.show();
+    if (!snapshot) {
+        return QApplication::exec();
+    }
+    ghostlight::write_snapshot(window, options.value("snapshot").toStdString());
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    for (int k = 1; k < argc; ++k) {  // these need no display
+        const std::string argument = argv[k];
+        if (argument == "--help" || argument == "-h") {
+            std::fputs(usage_text, stdout);
+            return 0;
+        }
+        if (argument == "--version") {
+            std::puts("ghostlight " GHOSTLIGHT_VERSION);
+            return 0;
+        }
+    }
+    set_surface_format();
+    QApplication application(argc, argv);
+    QCoreApplication::setApplicationName("ghostlight");
+    QCoreApplication::setOrganizationName("ghostlight");
+    QCoreApplication::setApplicationVersion(GHOSTLIGHT_VERSION);
+    QGuiApplication::setApplicationDisplayName("Ghostlight");
+    // Numbers here have a decimal point, in files and on screen; Qt has just asked the machine.
+    QLocale::setDefault(QLocale::c());
+    std::setlocale(LC_NUMERIC, "C");
+
+    QCommandLineParser options;
+    options.addOptions({{"snapshot", "", "DIR"}, {"size", "", "WxH"}});
+    options.addPositionalArgument("LENS", "");
+    if (!options.parse(QCoreApplication::arguments())) {
+        return fail(options.errorText().toStdString() + " (see --help)");
+    }
+    try {
+        return run(application, options);
+    } catch (const std::exception& error) {
+        return fail(error.what());
+    }
+}

@@ -1,0 +1,91 @@
+#include "widgets/actions.h"
+
+#include <QMenu>
+#include <QMenuBar>
+#include <QWidget>
+
+#include <array>
+#include <utility>
+
+namespace ghostlight {
+
+namespace {
+
+constexpr std::array texts = {
+    ActionText{"file.open", "&Open…", "Ctrl+O", "Open a lens file"},
+    ActionText{"file.save", "&Save", "Ctrl+S", "Save the lens in its file"},
+    ActionText{"file.save_as", "Save &As…", "Ctrl+Shift+S", "Save the lens in another file"},
+    ActionText{"file.export_table", "Export Ghost &Table as CSV…", "Ctrl+E",
+               "Every column and every digit"},
+    ActionText{"file.export_exr", "Export &Flare as EXR…", "Ctrl+Shift+E",
+               "Linear irradiance, 32-bit float, upright"},
+    ActionText{"file.export_png", "Export Flare as &PNG…", "", "As shown, at the exposure in use"},
+    ActionText{"file.quit", "&Quit", "Ctrl+Q", "Close the window"},
+    ActionText{"edit.undo", "&Undo", "Ctrl+Z", "Take back the last change"},
+    ActionText{"edit.redo", "&Redo", "Ctrl+Shift+Z", "Do it again"},
+    ActionText{"edit.insert", "&Insert Surface", "Ctrl+I",
+               "A plane in the middle of the gap after the chosen surface"},
+    ActionText{"edit.delete", "&Delete Surface", "Ctrl+Del", "Take the chosen surface out"},
+    ActionText{"edit.move_up", "Move Surface &Up", "Alt+Up", "Swap with the surface before"},
+    ActionText{"edit.move_down", "Move Surface Do&wn", "Alt+Down", "Swap with the surface after"},
+    ActionText{"edit.make_stop", "Make It the &Stop", "", "The chosen surface becomes the stop"},
+    ActionText{"ghosts.copy", "&Copy Ghosts", "", "The chosen rows with every digit, for a sheet"},
+    ActionText{"ghosts.clear", "Clear &Selection", "Esc", "Select no ghost"},
+    ActionText{"ghosts.all", "Show &All", "", "List every ghost", true},
+    ActionText{"ghosts.above_3", "Show Those Above 1/1000 of the Strongest", "",
+               "Leave weak ghosts out of the list", true},
+    ActionText{"ghosts.above_2", "Show Those Above 1/100 of the Strongest", "",
+               "Leave weak ghosts out of the list", true},
+    ActionText{"view.fit", "&Fit Layout", "Ctrl+0", "The whole lens in the layout"},
+    ActionText{"view.expose", "Auto &Exposure", "Ctrl+Shift+0",
+               "Expose for all but the brightest half per cent"},
+    ActionText{"view.light_theme", "&Light Theme", "", "Dark letters on a light ground", true},
+    ActionText{"view.reset", "&Restore Panels", "", "All panels where they were at first"},
+    ActionText{"help.guide", "User &Guide", "F1", "How to work with this window"},
+    ActionText{"help.about", "&About Ghostlight", "", "Version and licence"},
+};
+
+}  // namespace
+
+std::span<const ActionText> action_texts() { return texts; }
+
+Actions::Actions(QWidget* window) : QObject(window) {
+    for (const ActionText& text : texts) {
+        auto* action = new QAction(QString::fromUtf8(text.text), this);
+        action->setObjectName(text.id);
+        action->setShortcut(QKeySequence(QString::fromUtf8(text.keys)));
+        action->setStatusTip(QString::fromUtf8(text.tip));
+        action->setToolTip(QString::fromUtf8(text.tip));
+        action->setCheckable(text.checkable);
+        window->addAction(action);  // keys work even while no menu shows the action
+        actions_.insert(text.id, action);
+    }
+}
+
+QAction& Actions::operator[](const QString& id) const {
+    QAction* action = actions_.value(id);
+    Q_ASSERT_X(action != nullptr, "Actions", qPrintable("no action " + id));
+    return *action;
+}
+
+void Actions::on(const QString& id, std::function<void()> run) {
+    connect(&(*this)[id], &QAction::triggered, this, [run = std::move(run)] { run(); });
+}
+
+void Actions::fill(QMenu& menu, const QStringList& ids) const {
+    for (const QString& id : ids) {
+        if (id == "-") {
+            menu.addSeparator();
+        } else {
+            menu.addAction(&(*this)[id]);
+        }
+    }
+}
+
+QMenu* Actions::add_menu(QMenuBar& bar, const QString& title, const QStringList& ids) const {
+    QMenu* menu = bar.addMenu(title);
+    fill(*menu, ids);
+    return menu;
+}
+
+}  // namespace ghostlight

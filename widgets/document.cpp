@@ -1,0 +1,111 @@
+#include "widgets/document.h"
+
+#include <utility>
+
+#include "core/io/lens_file.h"
+#include "widgets/edit_command.h"
+
+namespace ghostlight {
+
+std::string document_to_json(const DocumentState& state) {
+    Prescription lens = state.lens;
+    lens.unknown[std::string(scene_field)] = scene_to_json(state.scene);
+    return lens_to_json(lens);
+}
+
+DocumentState document_from_lens(Prescription lens) {
+    DocumentState state;
+    const auto scene = lens.unknown.extract(std::string(scene_field));
+    state.scene = default_scene(lens);
+    if (scene) {
+        state.scene = scene_from_json(scene.mapped(), lens, state.scene);
+    }
+    state.lens = std::move(lens);
+    return state;
+}
+
+Document::Document(QObject* parent) : QObject(parent) {
+    connect(&history_, &QUndoStack::indexChanged, this, &Document::file_changed);
+}
+
+Prescription Document::configured_lens() const {
+    return configured(state_.lens, state_.scene.configuration);
+}
+
+void Document::edit(DocumentState after, const QString& text, const QString& field) {
+    if (after == state_) {
+        return;
+    }
+    history_.push(new EditCommand(*this, state_, std::move(after), text, field));
+}
+
+void Document::edit_lens(Prescription after, const QString& text, const QString& field) {
+    edit({std::move(after), state_.scene}, text, field);
+}
+
+void Document::edit_scene(Scene after, const QString& text, const QString& field) {
+    edit({state_.lens, std::move(after)}, text, field);
+}
+
+void Document::apply(const DocumentState& state) {
+    const bool lens_changed = state.lens != state_.lens;
+    state_ = state;
+    ++revision_;
+    changed_at_ = std::chrono::steady_clock::now();
+    Q_EMIT changed(lens_changed);
+}
+
+std::optional<Error> Document::open(const std::filesystem::path& file) {
+    try {
+        LensFile read = read_lens(file);
+        std::error_code unreadable;
+        const auto absolute = std::filesystem::absolute(file, unreadable);
+        DocumentState state = document_from_lens(std::move(read.lens));
+        begin(state, unreadable ? file : absolute, std::move(read.notes));
+        saved_lens_ = state_.lens;
+        Q_EMIT file_changed();
+    } catch (const Error& error) {
+        return error;
+    }
+    return std::nullopt;
+}
+
+std::optional<Error> Document::save_as(const std::filesystem::path& file) {
+    try {
+        write_file_safely(file, document_to_json(state_));
+    } catch (const Error& error) {
+        return error;
+    }
+    file_ = file;
+    saved_lens_ = state_.lens;
+    saved_at_ = QDateTime::currentDateTime();
+    history_.setClean();
+    Q_EMIT file_changed();
+    return std::nullopt;
+}
+
+void Document::adopt(DocumentState state, const std::filesystem::path& file) {
+    begin(std::move(state), file, {});
+    saved_lens_ = {};
+    Q_EMIT file_changed();
+}
+
+void Document::begin(DocumentState state, const std::filesystem::path& file, Notes notes) {
+    history_.clear();
+    file_ = file;
+    notes_ = std::move(notes);
+    saved_at_ = {};
+    first_revision_ = revision_ + 1;
+    state_ = {};
+    Q_EMIT opened();
+    apply(state);
+}
+
+QString Document::title() const {
+    if (!state_.lens.name.empty()) {
+        return QString::fromStdString(state_.lens.name);
+    }
+    return file_.empty() ? QString() : QString::fromStdString(file_.stem().string());
+}
+
+}  // namespace ghostlight

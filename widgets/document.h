@@ -1,0 +1,95 @@
+#pragma once
+
+#include <QDateTime>
+#include <QObject>
+#include <QString>
+#include <QUndoStack>
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "core/error.h"
+#include "core/optics/prescription.h"
+#include "widgets/scene.h"
+
+namespace ghostlight {
+
+/// All that is undone and saved.
+struct DocumentState {
+    Prescription lens;
+    Scene scene;
+    bool operator==(const DocumentState&) const = default;
+};
+
+/// The lens in hand and how it is looked at, its file and its history.
+class Document : public QObject {
+    Q_OBJECT
+   public:
+    explicit Document(QObject* parent = nullptr);
+
+    const DocumentState& state() const { return state_; }
+    const Prescription& lens() const { return state_.lens; }
+    const Scene& scene() const { return state_.scene; }
+    bool is_empty() const { return state_.lens.surfaces.empty(); }
+    /// The lens in the scene's configuration.
+    Prescription configured_lens() const;
+
+    /// Counts every change of state.
+    std::uint64_t revision() const { return revision_; }
+    /// The revision that began the lens in hand: older results belong to another one.
+    std::uint64_t first_revision() const { return first_revision_; }
+    /// When the present revision came about: where the time to a new picture is measured from.
+    std::chrono::steady_clock::time_point changed_at() const { return changed_at_; }
+
+    /// One step of the history. `text` names it ("change radius of surface 3"). Successive edits
+    /// of the same `field` become one step; an edit that changes nothing leaves no trace.
+    void edit(DocumentState after, const QString& text, const QString& field = {});
+    void edit_lens(Prescription after, const QString& text, const QString& field = {});
+    void edit_scene(Scene after, const QString& text, const QString& field = {});
+    QUndoStack& history() { return history_; }
+
+    /// A failing open or save changes nothing and says why.
+    [[nodiscard]] std::optional<Error> open(const std::filesystem::path& file);
+    [[nodiscard]] std::optional<Error> save_as(const std::filesystem::path& file);
+    /// Takes over a lens that has no file of its own, or not this content on file.
+    void adopt(DocumentState state, const std::filesystem::path& file);
+
+    const std::filesystem::path& file() const { return file_; }
+    const Notes& notes() const { return notes_; }
+    /// The lens differs from its file. The scene is saved too, but looking around is no edit.
+    bool is_modified() const { return state_.lens != saved_lens_; }
+    QDateTime saved_at() const { return saved_at_; }
+    /// The lens's name, or that of its file.
+    QString title() const;
+
+   Q_SIGNALS:
+    /// The state has another revision. `lens_changed` is false when only the scene is another.
+    void changed(bool lens_changed);
+    /// Another lens is in hand; comes before changed().
+    void opened();
+    /// The file, or whether the lens differs from it, may have changed.
+    void file_changed();
+
+   private:
+    friend class EditCommand;
+    void apply(const DocumentState& state);
+    void begin(DocumentState state, const std::filesystem::path& file, Notes notes);
+
+    DocumentState state_;
+    Prescription saved_lens_;
+    std::filesystem::path file_;
+    Notes notes_;
+    QDateTime saved_at_;
+    std::uint64_t revision_ = 0;
+    std::uint64_t first_revision_ = 0;
+    std::chrono::steady_clock::time_point changed_at_{};
+    QUndoStack history_;
+};
+
+/// A lens file's text with the scene in it, and back.
+std::string document_to_json(const DocumentState& state);
+DocumentState document_from_lens(Prescription lens);
+
+}  // namespace ghostlight

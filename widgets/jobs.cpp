@@ -1,0 +1,216 @@
+#include "widgets/jobs.h"
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <utility>
+
+#include "core/error.h"
+
+namespace ghostlight {
+
+namespace {
+
+constexpr int table_delay_ms = 200;
+
+/// Coarse pictures, finest first. The one in use follows the time that the last one took.
+std::array<FlareRequest, 4> coarse_requests() {
+    std::array<FlareRequest, 4> requests{};
+    const std::array<int, 4> widths = {960, 800, 640, 480};
+    const std::array<int, 4> grids = {20, 16, 12, 8};
+    for (std::size_t k = 0; k < requests.size(); ++k) {
+        requests[k].width_px = widths[k];
+        requests[k].grid = grids[k];
+        requests[k].spectral_samples = 3;
+    }
+    return requests;
+}
+
+constexpr double too_slow_ms = 60.0;
+constexpr double quick_ms = 15.0;
+
+}  // namespace
+
+Jobs::Jobs(Document& document, Selection& selection, QObject* parent)
+    : QObject(parent), document_(document), selection_(selection) {
+    flare_job_ = std::make_unique<NewestJob<Snapshot>>(
+        [this](const Snapshot& job, std::stop_token stop) { work_on_flare(job, stop); });
+    table_job_ = std::make_unique<NewestJob<Snapshot>>(
+        [this](const Snapshot& job, std::stop_token stop) { work_on_table(job, stop); });
+    table_delay_.setSingleShot(true);
+    table_delay_.setInterval(table_delay_ms);
+    connect(&table_delay_, &QTimer::timeout, this, &Jobs::request_table);
+    connect(&document_, &Document::changed, this, &Jobs::follow_document);
+    // Another highlight of the same picture: a coarse one between would only flicker.
+    connect(&selection_, &Selection::ghosts_changed, this, [this] { request_flare(false); });
+    if (!document_.is_empty()) {
+        follow_document();
+    }
+}
+
+Jobs::~Jobs() {
+    flare_job_->cancel();  // both stop at once, not one after the other
+    table_job_->cancel();
+}
+
+Jobs::Snapshot Jobs::snapshot(std::uint64_t serial) const {
+    return {document_.configured_lens(),
+            document_.scene(),
+            selection_.ghosts(),
+            document_.revision(),
+            serial,
+            document_.changed_at(),
+            false};
+}
+
+void Jobs::follow_document() {
+    table_job_->cancel();
+    table_open_ = true;
+    request_flare(true);
+    table_delay_.start();
+}
+
+void Jobs::request_flare(bool coarse_first) {
+    if (document_.is_empty()) {
+        return;
+    }
+    flare_open_ = true;
+    try {
+        Snapshot job = snapshot(++flare_serial_);
+        job.coarse_first = coarse_first;
+        flare_job_->submit(std::move(job));
+    } catch (const Error& error) {  // the configuration is not one of the lens's
+        fail(error.what(), flare_serial_, flare_open_, flare_serial_);
+    }
+}
+
+void Jobs::request_table() {
+    try {
+        table_job_->submit(snapshot(++table_serial_));
+    } catch (const Error& error) {
+        fail(error.what(), table_serial_, table_open_, table_serial_);
+    }
+}
+
+void Jobs::cancel_table() {
+    table_delay_.stop();
+    table_job_->cancel();
+    if (table_open_) {
+        ++table_serial_;
+        Q_EMIT table_cancelled();
+        close(table_open_);
+    }
+}
+
+void Jobs::work_on_flare(const Snapshot& job, const std::stop_token& stop) {
+    static const auto coarse = coarse_requests();
+    const auto render = [&](FlareRequest request, const std::stop_token& token, bool is_final) {
+        request.light = job.scene.light;
+        request.spectrum = job.scene.spectrum;
+        request.highlighted = job.highlighted;
+        std::optional<FlareImage> image = render_flare(job.lens, request, token);
+        if (!image) {
+            return 0.0;
+        }
+        const double took_ms = image->times.total_ms;
+        FlarePicture picture{std::make_shared<const FlareImage>(std::move(*image)), job.revision,
+                             job.changed_at, is_final};
+        QMetaObject::invokeMethod(
+            this, [this, picture, serial = job.serial] { take_flare(picture, serial); },
+            Qt::QueuedConnection);
+        return took_ms;
+    };
+    try {
+        // Not interrupted: else a light that moves faster than pictures come would show none.
+        const double took_ms =
+            job.coarse_first ? render(coarse[static_cast<std::size_t>(coarseness_)], {}, false)
+                             : quick_ms;
+        if (took_ms > too_slow_ms) {
+            coarseness_ = std::min(coarseness_ + 1, static_cast<int>(coarse.size()) - 1);
+        } else if (took_ms < quick_ms) {
+            coarseness_ = std::max(coarseness_ - 1, 0);
+        }
+        if (!stop.stop_requested()) {
+            render(FlareRequest{}, stop, true);
+        }
+    } catch (const std::exception& error) {
+        QMetaObject::invokeMethod(
+            this,
+            [this, reason = QString::fromUtf8(error.what()), serial = job.serial] {
+                fail(reason, serial, flare_open_, flare_serial_);
+            },
+            Qt::QueuedConnection);
+    }
+}
+
+void Jobs::work_on_table(const Snapshot& job, const std::stop_token& stop) {
+    GhostTableRequest request;
+    request.light = job.scene.light;
+    request.spectrum = job.scene.spectrum;
+    request.tolerance = job.scene.tolerance;
+    std::atomic<int> reported_percent{-1};
+    const Progress progress = [&](double share) {
+        const int percent = static_cast<int>(share * 100.0);
+        if (reported_percent.exchange(percent) != percent) {
+            QMetaObject::invokeMethod(
+                this,
+                [this, share, serial = job.serial] {
+                    if (serial == table_serial_ && table_open_) {
+                        Q_EMIT table_progress(share);
+                    }
+                },
+                Qt::QueuedConnection);
+        }
+    };
+    try {
+        std::optional<GhostTable> table = ghost_table(job.lens, request, stop, progress);
+        if (!table) {
+            return;
+        }
+        auto shared = std::make_shared<const GhostTable>(std::move(*table));
+        QMetaObject::invokeMethod(
+            this, [this, shared, serial = job.serial] { take_table(shared, serial); },
+            Qt::QueuedConnection);
+    } catch (const std::exception& error) {
+        QMetaObject::invokeMethod(
+            this,
+            [this, reason = QString::fromUtf8(error.what()), serial = job.serial] {
+                fail(reason, serial, table_open_, table_serial_);
+            },
+            Qt::QueuedConnection);
+    }
+}
+
+void Jobs::take_flare(const FlarePicture& picture, std::uint64_t serial) {
+    const bool is_newest = serial == flare_serial_;
+    if (picture.revision < document_.first_revision() || (picture.is_final && !is_newest)) {
+        return;
+    }
+    Q_EMIT flare_ready(picture);
+    if (picture.is_final && is_newest) {
+        close(flare_open_);
+    }
+}
+
+void Jobs::take_table(std::shared_ptr<const GhostTable> table, std::uint64_t serial) {
+    if (serial == table_serial_ && !table_delay_.isActive()) {
+        Q_EMIT table_ready(std::move(table));
+        close(table_open_);
+    }
+}
+
+void Jobs::fail(const QString& reason, std::uint64_t serial, bool& open, std::uint64_t newest) {
+    if (serial == newest) {
+        Q_EMIT failed(reason);
+        close(open);
+    }
+}
+
+void Jobs::close(bool& open) {
+    open = false;
+    if (!is_busy()) {
+        Q_EMIT settled();
+    }
+}
+
+}  // namespace ghostlight

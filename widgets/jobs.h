@@ -1,0 +1,85 @@
+#pragma once
+
+#include <QObject>
+#include <QTimer>
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+
+#include "core/flare/flare_image.h"
+#include "core/ghosts/ghost_table.h"
+#include "widgets/document.h"
+#include "widgets/newest_job.h"
+#include "widgets/selection.h"
+
+namespace ghostlight {
+
+/// A picture, and what it is a picture of.
+struct FlarePicture {
+    std::shared_ptr<const FlareImage> image;
+    std::uint64_t revision = 0;
+    std::chrono::steady_clock::time_point changed_at{};  ///< of that revision
+    bool is_final = false;  ///< else a coarse one, to be followed by a finer
+};
+
+/// The work behind the views, off the GUI thread: after every change a coarse picture at once, a
+/// fine one next, and the ghost table when the hand has come to rest. Newer changes replace older
+/// ones. A coarse picture that is done while the light moves on is still shown, so that there is
+/// motion; every other result that is out of date is dropped.
+class Jobs : public QObject {
+    Q_OBJECT
+   public:
+    Jobs(Document& document, Selection& selection, QObject* parent = nullptr);
+    ~Jobs() override;
+
+    /// True while a result for the document's present revision is still to come.
+    bool is_busy() const { return flare_open_ || table_open_; }
+    /// Gives up the ghost table until the next change.
+    void cancel_table();
+
+   Q_SIGNALS:
+    void flare_ready(const ghostlight::FlarePicture& picture);
+    void table_ready(std::shared_ptr<const ghostlight::GhostTable> table);
+    void table_progress(double share);
+    void table_cancelled();
+    /// The lens cannot be traced as it stands, and why.
+    void failed(const QString& reason);
+    /// All results for the present revision are there, or have failed.
+    void settled();
+
+   private:
+    struct Snapshot {
+        Prescription lens;  ///< configured
+        Scene scene;
+        std::vector<GhostPath> highlighted;
+        std::uint64_t revision = 0;
+        std::uint64_t serial = 0;
+        std::chrono::steady_clock::time_point changed_at{};
+        bool coarse_first = false;
+    };
+    Snapshot snapshot(std::uint64_t serial) const;
+    void follow_document();
+    void request_flare(bool coarse_first);
+    void request_table();
+    void work_on_flare(const Snapshot& snapshot, const std::stop_token& stop);
+    void work_on_table(const Snapshot& snapshot, const std::stop_token& stop);
+    void take_flare(const FlarePicture& picture, std::uint64_t serial);
+    void take_table(std::shared_ptr<const GhostTable> table, std::uint64_t serial);
+    void fail(const QString& reason, std::uint64_t serial, bool& open, std::uint64_t newest);
+    void close(bool& open);
+
+    Document& document_;
+    Selection& selection_;
+    QTimer table_delay_;
+    std::uint64_t flare_serial_ = 0;
+    std::uint64_t table_serial_ = 0;
+    bool flare_open_ = false;
+    bool table_open_ = false;
+    int coarseness_ = 1;  ///< of coarse pictures; belongs to the flare's thread
+    std::unique_ptr<NewestJob<Snapshot>> flare_job_;
+    std::unique_ptr<NewestJob<Snapshot>> table_job_;
+};
+
+}  // namespace ghostlight

@@ -1,0 +1,377 @@
+#include "widgets/main_window.h"
+
+#include <QApplication>
+#include <QCloseEvent>
+#include <QDesktopServices>
+#include <QDockWidget>
+#include <QDropEvent>
+#include <QFile>
+#include <QMenu>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QOpenGLWidget>
+#include <QStatusBar>
+#include <QUrl>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/io/lens_file.h"
+#include "core/optics/paraxial.h"
+#include "core/units.h"
+#include "widgets/autosave.h"
+#include "widgets/file_actions.h"
+#include "widgets/models/ghost_table_model.h"
+#include "widgets/panel_header.h"
+#include "widgets/panels/banner.h"
+#include "widgets/panels/flare_panel.h"
+#include "widgets/panels/ghost_panel.h"
+#include "widgets/panels/layout_panel.h"
+#include "widgets/panels/prescription_panel.h"
+#include "widgets/panels/scene_bar.h"
+#include "widgets/panels/status_line.h"
+#include "widgets/settings.h"
+
+namespace ghostlight {
+
+MainWindow::MainWindow(bool remembers) : remembers_(remembers), actions_(this) {
+    setObjectName("workbench");
+    setAcceptDrops(true);
+    setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks);
+    build_panels();
+    jobs_ = std::make_unique<Jobs>(document_, selection_);
+    files_ = new FileActions(
+        document_, actions_, *banner_, *status_,
+        {[this] { return ghosts_->model().is_stale() ? nullptr : ghosts_->model().table(); },
+         [this] { return picture_ && picture_->is_final ? picture_->image : nullptr; },
+         [this] { return flare_->exposure_ev(); }},
+        this);
+    build_menus();
+    connect_document();
+    connect_jobs();
+    connect_actions();
+    resize(1720, 1000);
+    arrange_panels();
+    if (remembers_) {
+        restoreGeometry(settings::window_geometry());
+        restoreState(settings::window_state());
+        offer_recovery();
+        autosave_ = std::make_unique<Autosave>(document_, Autosave::default_folder());
+    }
+    show_title();
+}
+
+MainWindow::~MainWindow() {
+    // Children may still signal while they go, after the members that listen are gone.
+    jobs_.reset();
+    document_.disconnect(this);
+    selection_.disconnect(this);
+}
+
+QDockWidget* MainWindow::add_dock(QWidget* panel, const char* name, const QString& title,
+                                  Qt::DockWidgetArea area) {
+    auto* dock = new QDockWidget(title, this);
+    dock->setObjectName(name);
+    dock->setWidget(panel);
+    // The panel's own header is the handle by which it is moved.
+    if (auto* header = panel->findChild<PanelHeader*>()) {
+        dock->setTitleBarWidget(header);
+        header->setToolTip(
+            "Drag to move the panel, double-click to float it, right-click to close");
+    }
+    addDockWidget(area, dock);
+    return dock;
+}
+
+void MainWindow::build_panels() {
+    scene_bar_ = new SceneBar(document_);
+    addToolBar(Qt::TopToolBarArea, scene_bar_);
+    prescription_ = new PrescriptionPanel(document_, actions_);
+    layout_ = new LayoutPanel;
+    flare_ = new FlarePanel;
+    ghosts_ = new GhostPanel(selection_, actions_);
+    setCentralWidget(flare_);
+    setCorner(Qt::TopLeftCorner, Qt::LeftDockWidgetArea);
+    setCorner(Qt::TopRightCorner, Qt::RightDockWidgetArea);
+    setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
+    setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+    prescription_dock_ =
+        add_dock(prescription_, "prescription", "Prescription", Qt::LeftDockWidgetArea);
+    layout_dock_ = add_dock(layout_, "layout", "Layout", Qt::TopDockWidgetArea);
+    ghost_dock_ = add_dock(ghosts_, "ghosts", "Ghosts", Qt::RightDockWidgetArea);
+
+    status_ = new StatusLine(document_);
+    statusBar()->setSizeGripEnabled(false);
+    statusBar()->setContentsMargins(0, 0, 0, 0);
+    statusBar()->setStyleSheet("QStatusBar::item { border: none; }");
+    statusBar()->addPermanentWidget(status_, 1);
+    banner_ = new Banner(this);
+    flare_->installEventFilter(this);  // the banner follows its place
+}
+
+void MainWindow::build_menus() {
+    QMenuBar& bar = *menuBar();
+    QMenu* file = bar.addMenu("&File");
+    file->addAction(&actions_["file.open"]);
+    QMenu* bundled = file->addMenu("Open &Bundled");
+    connect(bundled, &QMenu::aboutToShow, this,
+            [this, bundled] { files_->fill_bundled(*bundled); });
+    QMenu* recent = file->addMenu("Open &Recent");
+    connect(recent, &QMenu::aboutToShow, this, [this, recent] { files_->fill_recent(*recent); });
+    actions_.fill(*file, {"-", "file.save", "file.save_as", "-", "file.export_table",
+                          "file.export_exr", "file.export_png", "-", "file.quit"});
+    actions_.add_menu(bar, "&Edit",
+                      {"edit.undo", "edit.redo", "-", "edit.insert", "edit.delete", "edit.move_up",
+                       "edit.move_down", "edit.make_stop"});
+    actions_.add_menu(
+        bar, "&Ghosts",
+        {"ghosts.copy", "ghosts.clear", "-", "ghosts.all", "ghosts.above_3", "ghosts.above_2"});
+    QMenu* view = actions_.add_menu(bar, "&View", {"view.fit", "view.expose", "-"});
+    for (QDockWidget* dock : {prescription_dock_, layout_dock_, ghost_dock_}) {
+        view->addAction(dock->toggleViewAction());
+    }
+    actions_.fill(*view, {"view.reset", "-", "view.light_theme"});
+    actions_.add_menu(bar, "&Help", {"help.guide", "help.about"});
+}
+
+void MainWindow::arrange_panels() {
+    const struct {
+        QDockWidget* dock;
+        Qt::DockWidgetArea area;
+    } places[] = {{prescription_dock_, Qt::LeftDockWidgetArea},
+                  {layout_dock_, Qt::TopDockWidgetArea},
+                  {ghost_dock_, Qt::RightDockWidgetArea}};
+    for (const auto& place : places) {
+        place.dock->setFloating(false);
+        addDockWidget(place.area, place.dock);
+        place.dock->show();
+    }
+    // Tables need a certain width and no more; pictures take what is left.
+    const int left = std::clamp(width() * 29 / 100, 360, 560);
+    const int right = std::clamp(width() * 24 / 100, 300, 620);
+    resizeDocks({prescription_dock_, ghost_dock_}, {left, right}, Qt::Horizontal);
+    resizeDocks({layout_dock_}, {height() * 36 / 100}, Qt::Vertical);
+}
+
+void MainWindow::connect_document() {
+    scene_update_.setSingleShot(true);
+    scene_update_.setInterval(0);
+    connect(&scene_update_, &QTimer::timeout, this, &MainWindow::show_scene);
+    connect(&document_, &Document::opened, this, [this] {
+        selection_.set_ghosts({});
+        picture_.reset();
+        begins_lens_ = true;
+        ghosts_->clear();
+        flare_->show_image(nullptr);
+        banner_->clear("trace");
+    });
+    connect(&document_, &Document::changed, this, [this](bool lens_changed) {
+        // Ghosts are named by their surfaces: with other rows they would be others.
+        const auto& surfaces = document_.lens().surfaces;
+        const auto& selected = selection_.ghosts();
+        if (lens_changed && std::ranges::any_of(selected, [&](const GhostPath& path) {
+                return std::ranges::any_of(path.reflections,
+                                           [&](std::size_t k) { return k >= surfaces.size(); });
+            })) {
+            selection_.set_ghosts({});
+        }
+        flare_->set_dimmed(true);
+        ghosts_->set_refining(0.0);
+        scene_update_.start();
+    });
+    connect(&document_, &Document::file_changed, this, &MainWindow::show_title);
+    connect(&selection_, &Selection::ghosts_changed, &scene_update_, qOverload<>(&QTimer::start));
+    connect(flare_, &FlarePanel::light_dragged, this, [this](const LightDirection& light) {
+        Scene scene = document_.scene();
+        scene.light = light;
+        document_.edit_scene(scene, "move the light", "light");
+    });
+    connect(layout_, &LayoutPanel::surface_hovered, prescription_,
+            &PrescriptionPanel::set_hovered_row);
+    connect(scene_bar_, &SceneBar::refused, this, [this](const QString& reason) {
+        reason.isEmpty() ? banner_->clear("scene") : banner_->show_text("scene", reason);
+    });
+}
+
+void MainWindow::connect_jobs() {
+    connect(jobs_.get(), &Jobs::flare_ready, this, &MainWindow::show_picture);
+    connect(jobs_.get(), &Jobs::table_ready, this, [this](const auto& table) {
+        ghosts_->set_table(table);
+        status_->show_table(*table);
+    });
+    connect(jobs_.get(), &Jobs::table_progress, this, [this](double share) {
+        ghosts_->set_refining(share);
+        status_->show_progress(share);
+    });
+    connect(jobs_.get(), &Jobs::failed, this, &MainWindow::show_failure);
+    connect(jobs_.get(), &Jobs::settled, this, &MainWindow::settled);
+    // The picture is on screen when its frame has been swapped, and only then is it timed.
+    if (auto* view = flare_->findChild<QOpenGLWidget*>()) {
+        connect(view, &QOpenGLWidget::frameSwapped, this, [this] {
+            if (picture_is_on_its_way_ && picture_) {
+                picture_is_on_its_way_ = false;
+                status_->show_picture(*picture_, flare_->last_upload_ms());
+            }
+        });
+    }
+}
+
+void MainWindow::connect_actions() {
+    actions_.on("file.quit", [this] { close(); });
+    QUndoStack& history = document_.history();
+    actions_.on("edit.undo", [&history] { history.undo(); });
+    actions_.on("edit.redo", [&history] { history.redo(); });
+    const auto name_steps = [this, &history] {
+        actions_["edit.undo"].setEnabled(history.canUndo());
+        actions_["edit.redo"].setEnabled(history.canRedo());
+        actions_["edit.undo"].setText("&Undo " + history.undoText());
+        actions_["edit.redo"].setText("&Redo " + history.redoText());
+    };
+    connect(&history, &QUndoStack::indexChanged, this, name_steps);
+    name_steps();
+    actions_.on("view.fit", [this] { layout_->fit(); });
+    actions_.on("view.expose", [this] { flare_->auto_expose(); });
+    actions_.on("view.reset", [this] { arrange_panels(); });
+    QAction& light = actions_["view.light_theme"];
+    light.setChecked(settings::theme() == Theme::light);
+    actions_.on("view.light_theme", [this, &light] {
+        const Theme theme = light.isChecked() ? Theme::light : Theme::dark;
+        settings::set_theme(theme);
+        apply_theme(*qApp, theme);
+        scene_update_.start();
+    });
+    actions_.on("help.about", [this] { show_about(); });
+    actions_.on("help.guide", [this] { show_guide(); });
+}
+
+void MainWindow::offer_recovery() {
+    const auto leftover = Autosave::find_leftover(Autosave::default_folder());
+    if (!leftover) {
+        return;
+    }
+    const QString topic = leftover->autosave;
+    connect(banner_, &Banner::offer_taken, this, [this, topic, leftover](const QString& taken) {
+        if (taken == topic && files_->may_leave()) {
+            document_.adopt(leftover->state, leftover->file);
+            QFile::remove(topic);
+        }
+    });
+    connect(banner_, &Banner::offer_declined, this, [topic](const QString& declined) {
+        if (declined == topic) {
+            QFile::remove(topic);
+        }
+    });
+    banner_->show_offer(topic,
+                        QStringLiteral("Unsaved edits of %1 from %2 were found.")
+                            .arg(QString::fromStdString(leftover->state.lens.name),
+                                 leftover->time.toString("d MMM, HH:mm")),
+                        "Recover");
+}
+
+bool MainWindow::open(const std::filesystem::path& file) { return files_->open(file); }
+
+bool MainWindow::is_settled() const { return !jobs_->is_busy() && !scene_update_.isActive(); }
+
+void MainWindow::show_scene() {
+    if (document_.is_empty()) {
+        layout_->clear();
+        return;
+    }
+    try {
+        const Prescription lens = document_.configured_lens();
+        layout_->show_lens(lens, document_.scene().light, drawing_wavelength_nm(document_.scene()),
+                           selection_.ghosts());
+        const double efl_mm = first_order(compile(lens, d_line_nm)).efl_mm;
+        flare_->set_light(document_.scene().light, efl_mm);
+    } catch (const Error& error) {
+        show_failure(error.what());
+    }
+}
+
+void MainWindow::show_picture(const FlarePicture& picture) {
+    banner_->clear("trace");
+    if (begins_lens_) {
+        begins_lens_ = false;
+        flare_->begin_lens();
+    }
+    picture_ = picture;
+    picture_is_on_its_way_ = true;
+    flare_->show_image(picture.image);
+    flare_->set_dimmed(picture.revision != document_.revision());
+}
+
+void MainWindow::show_failure(const QString& reason) {
+    banner_->show_text("trace", reason);
+    flare_->set_dimmed(true);
+    ghosts_->set_failed();
+}
+
+void MainWindow::show_title() {
+    const QString title = document_.title();
+    setWindowTitle(title.isEmpty() ? QStringLiteral("Ghostlight") : title + "[*] – Ghostlight");
+    setWindowModified(!document_.is_empty() && document_.is_modified());
+    setWindowFilePath(QString::fromStdString(document_.file().string()));
+}
+
+void MainWindow::place_banner() {
+    const QRect around(flare_->mapTo(this, QPoint(0, 0)), flare_->size());
+    banner_->set_place(around.adjusted(16, 44, -16, 0));
+}
+
+void MainWindow::show_about() {
+    QMessageBox::about(this, "About Ghostlight",
+                       QStringLiteral("<b>Ghostlight %1</b><p>Lens-flare analysis workbench."
+                                      "<p>BSD 3-clause licence.")
+                           .arg(QCoreApplication::applicationVersion()));
+}
+
+void MainWindow::show_guide() {
+    try {
+        const auto guide = data_directory().parent_path() / "docs" / "user-guide.md";
+        if (std::filesystem::exists(guide)) {
+            QDesktopServices::openUrl(QUrl::fromLocalFile(QString::fromStdString(guide.string())));
+            return;
+        }
+    } catch (const Error&) {
+    }
+    banner_->show_text("guide", "The user guide, docs/user-guide.md, is not installed here.");
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+    if (!files_->may_leave()) {
+        event->ignore();
+        return;
+    }
+    if (remembers_) {
+        settings::set_window(saveGeometry(), saveState());
+    }
+    event->accept();
+}
+
+void MainWindow::resizeEvent(QResizeEvent* event) {
+    QMainWindow::resizeEvent(event);
+    place_banner();
+}
+
+bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == flare_ && (event->type() == QEvent::Resize || event->type() == QEvent::Move)) {
+        place_banner();
+    }
+    return QMainWindow::eventFilter(watched, event);
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+    const auto urls = event->mimeData()->urls();
+    if (urls.size() == 1 && urls.front().isLocalFile()) {
+        event->acceptProposedAction();
+    }
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+    open(event->mimeData()->urls().front().toLocalFile().toStdString());
+}
+
+}  // namespace ghostlight

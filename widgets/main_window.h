@@ -1,0 +1,108 @@
+#pragma once
+
+#include <QMainWindow>
+#include <QTimer>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "widgets/actions.h"
+#include "widgets/document.h"
+#include "widgets/jobs.h"
+#include "widgets/selection.h"
+
+namespace ghostlight {
+
+class Autosave;
+class Banner;
+class FileActions;
+class FlarePanel;
+class GhostPanel;
+class LayoutPanel;
+class PrescriptionPanel;
+class SceneBar;
+class StatusLine;
+
+/// The workbench: panels around one document. It only puts together; what each part does is in
+/// its own file.
+class MainWindow : public QMainWindow {
+    Q_OBJECT
+   public:
+    /// `remembers` off: neither settings of the window nor copies of unsaved edits are kept.
+    explicit MainWindow(bool remembers = true);
+    ~MainWindow() override;
+
+    bool open(const std::filesystem::path& file);
+    /// All panels where they were at first, in proportion to the window.
+    void arrange_panels();
+    /// True when the views show the document as it is.
+    bool is_settled() const;
+
+    Document& document() { return document_; }
+    Selection& selection() { return selection_; }
+    Actions& actions() { return actions_; }
+    Jobs& jobs() { return *jobs_; }
+    FileActions& files() { return *files_; }
+    Banner& banner() { return *banner_; }
+    SceneBar& scene_bar() { return *scene_bar_; }
+    StatusLine& status_line() { return *status_; }
+    PrescriptionPanel& prescription_panel() { return *prescription_; }
+    LayoutPanel& layout_panel() { return *layout_; }
+    FlarePanel& flare_panel() { return *flare_; }
+    GhostPanel& ghost_panel() { return *ghosts_; }
+    const std::optional<FlarePicture>& picture() const { return picture_; }
+
+   Q_SIGNALS:
+    void settled();
+
+   protected:
+    void closeEvent(QCloseEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+    void dragEnterEvent(QDragEnterEvent* event) override;
+    void dropEvent(QDropEvent* event) override;
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+   private:
+    void build_panels();
+    void build_menus();
+    void connect_document();
+    void connect_jobs();
+    void connect_actions();
+    void offer_recovery();
+    void show_scene();
+    void show_picture(const FlarePicture& picture);
+    void show_failure(const QString& reason);
+    void show_title();
+    void place_banner();
+    void show_about();
+    void show_guide();
+    QDockWidget* add_dock(QWidget* panel, const char* name, const QString& title,
+                          Qt::DockWidgetArea area);
+
+    bool remembers_;
+    Document document_;
+    Selection selection_;
+    Actions actions_;
+    std::unique_ptr<Jobs> jobs_;
+    std::unique_ptr<Autosave> autosave_;
+
+    SceneBar* scene_bar_ = nullptr;
+    PrescriptionPanel* prescription_ = nullptr;
+    LayoutPanel* layout_ = nullptr;
+    FlarePanel* flare_ = nullptr;
+    GhostPanel* ghosts_ = nullptr;
+    StatusLine* status_ = nullptr;
+    Banner* banner_ = nullptr;
+    FileActions* files_ = nullptr;
+    QDockWidget* prescription_dock_ = nullptr;
+    QDockWidget* layout_dock_ = nullptr;
+    QDockWidget* ghost_dock_ = nullptr;
+
+    QTimer scene_update_;  ///< many changes, one drawing
+    std::optional<FlarePicture> picture_;
+    bool picture_is_on_its_way_ = false;
+    bool begins_lens_ = false;
+};
+
+}  // namespace ghostlight

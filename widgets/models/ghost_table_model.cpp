@@ -1,0 +1,218 @@
+#include "widgets/models/ghost_table_model.h"
+
+#include <QStringList>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "widgets/ghost_colors.h"
+#include "widgets/number_text.h"
+#include "widgets/palette.h"
+
+namespace ghostlight {
+
+namespace {
+
+struct ColumnText {
+    const char* header;
+    const char* copied;  ///< the name that scripts know
+    const char* order;
+    const char* tip;
+};
+
+constexpr std::array<ColumnText, GhostTableModel::column_count> columns = {{
+    {"Ghost", "ghost", "name", "First and second reflection: 5-3 turns at surface 5, then at 3."},
+    {"Flux mm²", "flux_mm2", "flux",
+     "Effective collecting area: the ghost's flux over the light's irradiance E0,\n"
+     "polarisation carried along the path."},
+    {"", "", "flux", "Flux on a logarithmic scale, six decades below the strongest ghost."},
+    {"Rel.", "relative_flux", "relative flux", "Flux over that of the direct image."},
+    {"Peak E0", "peak_per_e0", "peak",
+     "Largest mean irradiance over a cell of sensor width / 1280, in units of E0."},
+    {"x mm", "centroid_x_mm", "x", "Centroid on the sensor plane, horizontal."},
+    {"y mm", "centroid_y_mm", "y",
+     "Centroid on the sensor plane, vertical; pictures are upright,\n"
+     "so that their top is −y."},
+    {"RMS mm", "rms_radius_mm", "RMS radius", "Root mean square radius about the centroid."},
+    {"On sensor %", "on_sensor", "share on the sensor",
+     "Share of the flux inside the sensor's rectangle."},
+    {"R1 %", "reflectance_1", "first reflectance", "Mean reflectance at the first reflection."},
+    {"R2 %", "reflectance_2", "second reflectance", "Mean reflectance at the second reflection."},
+    {"Rays", "rays", "rays", "Rays traced for this row's numbers."},
+}};
+
+constexpr double bar_decades = 6.0;
+
+}  // namespace
+
+QString sorted_by(int column) {
+    return QString::fromUtf8(columns[static_cast<std::size_t>(column)].order);
+}
+
+int GhostTableModel::rowCount(const QModelIndex& parent) const {
+    return parent.isValid() || !table_ ? 0 : static_cast<int>(table_->ghosts.size());
+}
+
+int GhostTableModel::columnCount(const QModelIndex& parent) const {
+    return parent.isValid() ? 0 : column_count;
+}
+
+double GhostTableModel::number(const GhostRow& row, int column) const {
+    switch (column) {
+        case ghost:
+            // By first, then by second reflection.
+            return row.path.reflections.size() < 2
+                       ? 0.0
+                       : 1e4 * static_cast<double>(row.path.reflections[0]) +
+                             static_cast<double>(row.path.reflections[1]);
+        case relative:
+            return row.relative_flux;
+        case peak:
+            return row.peak_per_e0;
+        case centroid_x:
+            return row.centroid_x_mm;
+        case centroid_y:
+            return row.centroid_y_mm;
+        case rms_radius:
+            return row.rms_radius_mm;
+        case on_sensor:
+            return row.on_sensor;
+        case reflectance_1:
+            return row.reflectance_1;
+        case reflectance_2:
+            return row.reflectance_2;
+        case rays:
+            return static_cast<double>(row.rays);
+        default:
+            return row.flux_mm2;
+    }
+}
+
+QVariant GhostTableModel::data(const QModelIndex& index, int role) const {
+    if (!index.isValid() || !table_ || index.row() >= rowCount()) {
+        return {};
+    }
+    const GhostRow& ghost_row = row(index.row());
+    const int column = index.column();
+    const double value = number(ghost_row, column);
+    switch (role) {
+        case Qt::DisplayRole:
+            switch (column) {
+                case ghost:
+                    return QString::fromStdString(name(ghost_row.path));
+                case magnitude:
+                    return {};
+                case rays:
+                    return grouped(ghost_row.rays);
+                case on_sensor:
+                    return significant(100.0 * value, 3);
+                case reflectance_1:
+                case reflectance_2:
+                    return significant(100.0 * value);
+                default:
+                    return significant(value);
+            }
+        case sort_role:
+            return value;
+        case bar_role: {
+            const double strongest = table_->ghosts.front().flux_mm2;
+            if (column != magnitude || !(value > 0.0) || !(strongest > 0.0)) {
+                return {};
+            }
+            return std::clamp(1.0 + std::log10(value / strongest) / bar_decades, 0.0, 1.0);
+        }
+        case stale_role:
+            return stale_ || !ghost_row.converged;
+        case Qt::DecorationRole:
+            return column == ghost ? QVariant(ghost_color(ghost_row.path)) : QVariant();
+        case Qt::TextAlignmentRole:
+            return QVariant::fromValue(Qt::AlignVCenter |
+                                       (column == ghost ? Qt::AlignLeft : Qt::AlignRight));
+        case Qt::ToolTipRole:
+            if (column == flux) {
+                return QStringLiteral("%1 ± %2 mm²%3")
+                    .arg(significant(ghost_row.flux_mm2, 6),
+                         significant(ghost_row.flux_error_mm2, 2),
+                         ghost_row.converged ? "" : "\nThe tolerance was not reached.");
+            }
+            return {};
+        default:
+            return {};
+    }
+}
+
+QVariant GhostTableModel::headerData(int section, Qt::Orientation orientation, int role) const {
+    if (orientation != Qt::Horizontal || section < 0 || section >= column_count) {
+        return {};
+    }
+    const ColumnText& column = columns[static_cast<std::size_t>(section)];
+    switch (role) {
+        case Qt::DisplayRole:
+            return QString::fromUtf8(column.header);
+        case Qt::ToolTipRole:
+            return QString::fromUtf8(column.tip);
+        case Qt::TextAlignmentRole:
+            return QVariant::fromValue(Qt::AlignVCenter |
+                                       (section == ghost ? Qt::AlignLeft : Qt::AlignRight));
+        default:
+            return {};
+    }
+}
+
+void GhostTableModel::set_table(std::shared_ptr<const GhostTable> table) {
+    stale_ = false;
+    const bool same_rows = table_ && table && table_->ghosts.size() == table->ghosts.size();
+    if (same_rows && rowCount() > 0) {
+        // The rows stay where they are for views; only their numbers are others.
+        table_ = std::move(table);
+        Q_EMIT dataChanged(index(0, 0), index(rowCount() - 1, column_count - 1));
+        return;
+    }
+    beginResetModel();
+    table_ = std::move(table);
+    endResetModel();
+}
+
+void GhostTableModel::set_stale(bool stale) {
+    if (stale == stale_) {
+        return;
+    }
+    stale_ = stale;
+    if (rowCount() > 0) {
+        Q_EMIT dataChanged(index(0, 0), index(rowCount() - 1, column_count - 1), {stale_role});
+    }
+}
+
+int GhostTableModel::find(const GhostPath& path) const {
+    for (int k = 0; k < rowCount(); ++k) {
+        if (row(k).path == path) {
+            return k;
+        }
+    }
+    return -1;
+}
+
+QString GhostTableModel::clipboard_text(const std::vector<int>& rows) const {
+    QStringList lines;
+    QStringList cells;
+    for (int column = 0; column < column_count; ++column) {
+        if (column != magnitude) {
+            cells << columns[static_cast<std::size_t>(column)].copied;
+        }
+    }
+    lines << cells.join('\t');
+    for (const int k : rows) {
+        cells = {QString::fromStdString(name(row(k).path))};
+        for (int column = flux; column < column_count; ++column) {
+            if (column != magnitude) {
+                cells << shortest(number(row(k), column));
+            }
+        }
+        lines << cells.join('\t');
+    }
+    return lines.join('\n') + '\n';
+}
+
+}  // namespace ghostlight

@@ -1,0 +1,109 @@
+#include "widgets/panels/prescription_delegate.h"
+
+#include <QAbstractItemView>
+#include <QCompleter>
+#include <QKeyEvent>
+#include <QLineEdit>
+#include <QStyle>
+
+#include "core/error.h"
+#include "core/io/lens_file.h"
+#include "widgets/models/prescription_model.h"
+
+namespace ghostlight {
+
+namespace {
+
+/// Which cell an editor belongs to.
+constexpr const char* cell_property = "cell";
+
+QStringList suggestions(int column) {
+    if (column == PrescriptionModel::coating) {
+        return {"none", "MgF2 λ/4 550", "ideal λ/4 550", "1.38 λ/4 550"};
+    }
+    QStringList names;
+    if (column == PrescriptionModel::medium) {
+        try {
+            for (const Medium& glass : bundled_glasses().glasses) {
+                names << QString::fromStdString(glass.name);
+            }
+        } catch (const Error&) {
+            // No catalogue: nothing to suggest.
+        }
+    }
+    return names;
+}
+
+void mark(QLineEdit& editor, bool refused) {
+    if (editor.property("refused").toBool() != refused) {
+        editor.setProperty("refused", refused);
+        editor.style()->unpolish(&editor);
+        editor.style()->polish(&editor);
+    }
+}
+
+}  // namespace
+
+PrescriptionDelegate::PrescriptionDelegate(QObject* parent) : TableDelegate(-1, -1, parent) {}
+
+QWidget* PrescriptionDelegate::createEditor(QWidget* parent, const QStyleOptionViewItem&,
+                                            const QModelIndex& index) const {
+    auto* editor = new QLineEdit(parent);
+    editor->setFrame(false);
+    editor->setAlignment(static_cast<Qt::Alignment>(index.data(Qt::TextAlignmentRole).toInt()));
+    editor->setProperty(cell_property, QPersistentModelIndex(index));
+    const QStringList words = suggestions(index.column());
+    if (!words.isEmpty()) {
+        auto* completer = new QCompleter(words, editor);
+        completer->setCaseSensitivity(Qt::CaseInsensitive);
+        completer->setFilterMode(Qt::MatchContains);
+        editor->setCompleter(completer);
+        // Long coatings need more room than their column.
+        editor->setMinimumWidth(160);
+    }
+    connect(editor, &QLineEdit::textEdited, this, [this, editor] {
+        mark(*editor, false);
+        Q_EMIT refusal_changed({});
+    });
+    connect(editor, &QObject::destroyed, this, [this] { Q_EMIT refusal_changed({}); });
+    return editor;
+}
+
+void PrescriptionDelegate::setEditorData(QWidget* editor, const QModelIndex& index) const {
+    auto* line = qobject_cast<QLineEdit*>(editor);
+    // What is being typed is not lost when the lens changes beneath it.
+    if (line != nullptr && !line->isModified()) {
+        line->setText(index.data(Qt::EditRole).toString());
+    }
+}
+
+bool PrescriptionDelegate::accepts(QLineEdit& editor) const {
+    const QPersistentModelIndex index =
+        editor.property(cell_property).value<QPersistentModelIndex>();
+    const auto* model = qobject_cast<const PrescriptionModel*>(index.model());
+    const QString reason = model == nullptr ? QString() : model->refusal(index, editor.text());
+    mark(editor, !reason.isEmpty());
+    Q_EMIT refusal_changed(reason);
+    return reason.isEmpty();
+}
+
+bool PrescriptionDelegate::eventFilter(QObject* watched, QEvent* event) {
+    auto* editor = qobject_cast<QLineEdit*>(watched);
+    if (editor == nullptr) {
+        return TableDelegate::eventFilter(watched, event);
+    }
+    if (event->type() == QEvent::KeyPress) {
+        const int key = static_cast<QKeyEvent*>(event)->key();
+        const bool leaves = key == Qt::Key_Return || key == Qt::Key_Enter || key == Qt::Key_Tab ||
+                            key == Qt::Key_Backtab;
+        if (leaves && !accepts(*editor)) {
+            return true;
+        }
+    }
+    if (event->type() == QEvent::FocusOut && editor->isVisible() && !accepts(*editor)) {
+        return true;  // stays open until it is put right or given up
+    }
+    return TableDelegate::eventFilter(watched, event);
+}
+
+}  // namespace ghostlight

@@ -1,0 +1,183 @@
+#include "widgets/panels/prescription_panel.h"
+
+#include <QHeaderView>
+#include <QLabel>
+#include <QMenu>
+#include <QScrollBar>
+#include <QStackedWidget>
+#include <QTableView>
+#include <QTimer>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+#include "widgets/actions.h"
+#include "widgets/document.h"
+#include "widgets/models/prescription_model.h"
+#include "widgets/palette.h"
+#include "widgets/panel_header.h"
+#include "widgets/panels/empty_state.h"
+#include "widgets/panels/prescription_delegate.h"
+
+namespace ghostlight {
+
+namespace {
+
+QTableView* make_table(QAbstractItemModel* model, QAbstractItemDelegate* delegate) {
+    auto* table = new QTableView;
+    table->setObjectName("prescription_table");
+    table->setModel(model);
+    table->setItemDelegate(delegate);
+    table->setShowGrid(false);
+    table->setFrameShape(QFrame::NoFrame);
+    table->setSelectionMode(QAbstractItemView::SingleSelection);
+    table->setSelectionBehavior(QAbstractItemView::SelectItems);
+    table->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed |
+                           QAbstractItemView::AnyKeyPressed);
+    table->setContextMenuPolicy(Qt::CustomContextMenu);
+    table->setWordWrap(false);
+    table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
+    table->verticalHeader()->hide();
+    table->verticalHeader()->setDefaultSectionSize(table_row_height);
+    table->verticalHeader()->setMinimumSectionSize(table_row_height);
+    QHeaderView* header = table->horizontalHeader();
+    header->setSectionResizeMode(QHeaderView::Interactive);
+    header->setHighlightSections(false);
+    header->setMinimumSectionSize(28);
+    header->setStretchLastSection(true);
+    return table;
+}
+
+}  // namespace
+
+PrescriptionPanel::PrescriptionPanel(Document& document, const Actions& actions, QWidget* parent)
+    : QWidget(parent),
+      document_(document),
+      model_(new PrescriptionModel(document, this)),
+      header_(new PanelHeader("Prescription")),
+      reason_(new QLabel),
+      pages_(new QStackedWidget) {
+    auto* delegate = new PrescriptionDelegate(this);
+    table_ = make_table(model_, delegate);
+    reason_->setObjectName("refusal");
+    reason_->setWordWrap(true);
+    reason_->setContentsMargins(12, 6, 12, 8);
+    reason_->hide();
+    auto* empty = new EmptyState(
+        "The lens's surfaces: radii, thicknesses, glasses and coatings, to be edited here.",
+        "Open a lens…");
+    connect(empty, &EmptyState::action_triggered, &actions["file.open"], &QAction::trigger);
+    pages_->addWidget(empty);
+    pages_->addWidget(table_);
+
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(0);
+    column->addWidget(header_);
+    column->addWidget(pages_, 1);
+    column->addWidget(reason_);
+
+    connect(delegate, &PrescriptionDelegate::refusal_changed, this,
+            &PrescriptionPanel::show_reason);
+    connect(model_, &PrescriptionModel::refused, this,
+            [this](const QModelIndex&, const QString& reason) { show_reason(reason); });
+    connect(table_->selectionModel(), &QItemSelectionModel::currentChanged, this,
+            [this] { show_reason({}); });
+    connect(table_, &QWidget::customContextMenuRequested, this,
+            [this, &actions](const QPoint& at) { show_menu(at, actions); });
+    connect(&document_, &Document::changed, this, &PrescriptionPanel::follow_document);
+    connect(&document_, &Document::opened, this,
+            // After the views have got the new rows.
+            [this] { QTimer::singleShot(0, this, &PrescriptionPanel::show_columns); });
+    connect_actions(actions);
+    follow_document();
+    show_columns();
+}
+
+void PrescriptionPanel::connect_actions(const Actions& actions) {
+    const auto on_row = [this, &actions](const char* id, auto edit) {
+        connect(&actions[id], &QAction::triggered, this, [this, edit] {
+            if (current_row() >= 0) {
+                show_reason({});
+                edit(current_row());
+            }
+        });
+    };
+    on_row("edit.insert", [this](int row) {
+        if (model_->insert_after(row)) {
+            go_to(row + 1);
+        }
+    });
+    on_row("edit.delete", [this](int row) {
+        if (model_->remove(row)) {
+            go_to(std::min(row, model_->rowCount() - 1));
+        }
+    });
+    on_row("edit.move_up", [this](int row) {
+        if (row > 0 && model_->move(row, row - 1)) {
+            go_to(row - 1);
+        }
+    });
+    on_row("edit.move_down", [this](int row) {
+        if (row + 1 < model_->rowCount() && model_->move(row, row + 1)) {
+            go_to(row + 1);
+        }
+    });
+    on_row("edit.make_stop", [this](int row) { model_->make_stop(row); });
+}
+
+void PrescriptionPanel::show_menu(const QPoint& position, const Actions& actions) {
+    QMenu menu;
+    actions.fill(menu, {"edit.insert", "edit.delete", "-", "edit.move_up", "edit.move_down", "-",
+                        "edit.make_stop", "-", "edit.undo", "edit.redo"});
+    menu.exec(table_->viewport()->mapToGlobal(position));
+}
+
+void PrescriptionPanel::follow_document() {
+    pages_->setCurrentIndex(document_.is_empty() ? 0 : 1);
+    if (document_.is_empty()) {
+        header_->set_state(QString());
+        return;
+    }
+    QString state = QStringLiteral("mm · R > 0: centre towards the sensor");
+    if (!document_.scene().configuration.empty()) {
+        state.prepend(QString::fromStdString(document_.scene().configuration) + " · ");
+    }
+    header_->set_state(state);
+}
+
+void PrescriptionPanel::show_columns() {
+    const auto& surfaces = document_.lens().surfaces;
+    const auto any = [&](auto property) {
+        return std::any_of(surfaces.begin(), surfaces.end(), property);
+    };
+    // What most lenses do not have takes no room unless this one does.
+    const bool aspheric =
+        any([](const Surface& s) { return s.conic != 0.0 || !s.aspheric.empty(); });
+    table_->setColumnHidden(PrescriptionModel::conic, !aspheric);
+    table_->setColumnHidden(PrescriptionModel::aspheric, !aspheric);
+    table_->setColumnHidden(PrescriptionModel::comment,
+                            !any([](const Surface& s) { return !s.comment.empty(); }));
+    table_->resizeColumnsToContents();
+}
+
+void PrescriptionPanel::show_reason(const QString& reason) {
+    QPalette palette = reason_->palette();
+    palette.setColor(QPalette::WindowText, current_palette().red_orange);
+    reason_->setPalette(palette);
+    reason_->setText(reason);
+    reason_->setVisible(!reason.isEmpty());
+}
+
+QString PrescriptionPanel::reason() const { return reason_->text(); }
+
+int PrescriptionPanel::current_row() const { return table_->currentIndex().row(); }
+
+void PrescriptionPanel::go_to(int row) {
+    const int column = std::max<int>(table_->currentIndex().column(), PrescriptionModel::radius);
+    table_->setCurrentIndex(model_->index(row, column));
+}
+
+void PrescriptionPanel::set_hovered_row(int row) { model_->set_marked_row(row - 1); }
+
+}  // namespace ghostlight

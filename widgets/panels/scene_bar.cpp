@@ -1,0 +1,223 @@
+#include "widgets/panels/scene_bar.h"
+
+#include <QAction>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QSignalBlocker>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+#include "core/optics/paraxial.h"
+#include "core/units.h"
+#include "widgets/document.h"
+#include "widgets/models/cell_text.h"
+#include "widgets/number_text.h"
+#include "widgets/panels/scene_field.h"
+#include "widgets/prescription_edits.h"
+
+namespace ghostlight {
+
+namespace {
+
+constexpr const char* as_listed = "as listed";
+constexpr double field_step_deg = 0.5;
+constexpr double azimuth_step_deg = 5.0;
+constexpr double most_field_deg = 89.9;
+
+/// One decimal at least, and not the sixteenth after a drag.
+QString angle_text(double angle_deg) {
+    return at_least_decimals(std::round(angle_deg * 100.0) / 100.0, 1);
+}
+
+double wrapped_azimuth(double azimuth_deg) {
+    const double wrapped = std::remainder(azimuth_deg, 360.0);
+    return wrapped == -180.0 ? 180.0 : wrapped;
+}
+
+}  // namespace
+
+SceneBar::SceneBar(Document& document, QWidget* parent)
+    : QToolBar("Scene", parent),
+      document_(document),
+      title_(new QLabel),
+      configuration_(new ChoiceField("Configuration", "Zoom or focus position", false)),
+      f_number_(new NumberField("f/", "", "F-number, set by the stop. Wheel or arrows: a third.")),
+      field_(new NumberField("Field", "°", "Angle of the light from the axis. Wheel or arrows.")),
+      azimuth_(new NumberField("Azimuth", "°",
+                               "Direction of the light about the axis; 90° is the plane of the "
+                               "layout's drawing.")),
+      spectrum_(new ChoiceField("Spectrum",
+                                "Of the light: D65, A, E, a black body (5500 K) or one wavelength "
+                                "(587.5618 nm)",
+                                true)),
+      tolerance_(new NumberField("Tolerance", " %",
+                                 "Each flux of the ghost table is refined until its own error "
+                                 "estimate is below this share of it.")) {
+    setObjectName("scene_bar");
+    setMovable(false);
+    setFloatable(false);
+    toggleViewAction()->setVisible(false);
+    auto* content = new QWidget;
+    auto* row = new QHBoxLayout(content);
+    row->setContentsMargins(12, 6, 12, 6);
+    row->setSpacing(8);
+    QFont bold = title_->font();
+    bold.setWeight(QFont::DemiBold);
+    title_->setFont(bold);
+    title_->setMinimumWidth(0);
+    title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    row->addWidget(title_, 2);
+    for (QWidget* field : {static_cast<QWidget*>(configuration_), static_cast<QWidget*>(f_number_),
+                           static_cast<QWidget*>(field_), static_cast<QWidget*>(azimuth_),
+                           static_cast<QWidget*>(spectrum_), static_cast<QWidget*>(tolerance_)}) {
+        row->addWidget(field);
+    }
+    row->addStretch(1);
+    addWidget(content);
+
+    spectrum_->set_choices({"D65", "A", "E", "5500 K", "3200 K", "587.5618 nm", "550 nm"});
+    connect_fields();
+    connect(&document_, &Document::changed, this, &SceneBar::follow_document);
+    connect(&document_, &Document::file_changed, this, &SceneBar::show_title);
+    follow_document();
+}
+
+template <class Field, class Edit>
+void SceneBar::attempt(Field& field, const Edit& edit) {
+    try {
+        edit();
+        field.set_refused(false);
+        Q_EMIT refused({});
+    } catch (const Error& error) {
+        field.set_refused(true);
+        Q_EMIT refused(error.what());
+    }
+}
+
+void SceneBar::set_field_deg(double field_deg) {
+    Scene scene = document_.scene();
+    scene.light.field_deg = std::clamp(field_deg, -most_field_deg, most_field_deg);
+    document_.edit_scene(scene, "change field angle", "light");
+}
+
+void SceneBar::set_azimuth_deg(double azimuth_deg) {
+    Scene scene = document_.scene();
+    scene.light.azimuth_deg = wrapped_azimuth(azimuth_deg);
+    document_.edit_scene(scene, "change azimuth", "light");
+}
+
+void SceneBar::set_f_number(double f_number) {
+    document_.edit_lens(with_f_number(document_.lens(), document_.scene().configuration, f_number),
+                        "change f-number", "f-number");
+}
+
+void SceneBar::connect_fields() {
+    connect(field_, &NumberField::entered, this, [this](const QString& text) {
+        attempt(*field_, [&] {
+            const double field_deg = read_number(text, "a field angle in degrees");
+            if (std::abs(field_deg) >= 90.0) {
+                throw Error({"the light must come from the front",
+                             {},
+                             {},
+                             text.toStdString(),
+                             "a field angle below 90 degrees"});
+            }
+            set_field_deg(field_deg);
+        });
+    });
+    connect(field_, &NumberField::stepped, this, [this](int steps) {
+        set_field_deg(document_.scene().light.field_deg + steps * field_step_deg);
+    });
+    connect(azimuth_, &NumberField::entered, this, [this](const QString& text) {
+        attempt(*azimuth_, [&] { set_azimuth_deg(read_number(text, "an angle in degrees")); });
+    });
+    connect(azimuth_, &NumberField::stepped, this, [this](int steps) {
+        set_azimuth_deg(document_.scene().light.azimuth_deg + steps * azimuth_step_deg);
+    });
+    connect(f_number_, &NumberField::entered, this, [this](const QString& text) {
+        attempt(*f_number_, [&] { set_f_number(read_positive(text, "an f-number above 0")); });
+    });
+    connect(f_number_, &NumberField::stepped, this, [this](int steps) {
+        // A third of a stop, and no longer number than people write.
+        const double next = shown_f_number_ * std::pow(2.0, steps / 6.0);
+        if (std::isfinite(next) && next > 0.0) {
+            set_f_number(std::round(next * 100.0) / 100.0);
+        }
+    });
+    connect(tolerance_, &NumberField::entered, this, [this](const QString& text) {
+        attempt(*tolerance_, [&] {
+            const double percent = read_positive(text, "per cent, from 0.001 to 50");
+            if (percent < 1e-3 || percent > 50.0) {
+                throw Error(
+                    {"out of range", {}, {}, text.toStdString(), "per cent, from 0.001 to 50"});
+            }
+            Scene scene = document_.scene();
+            scene.tolerance = percent / 100.0;
+            document_.edit_scene(scene, "change tolerance", "tolerance");
+        });
+    });
+    connect(spectrum_, &ChoiceField::entered, this, [this](const QString& text) {
+        attempt(*spectrum_, [&] {
+            Scene scene = document_.scene();
+            scene.spectrum = parse_spectrum(text.trimmed().toStdString());
+            document_.edit_scene(scene, "change spectrum", "spectrum");
+        });
+    });
+    connect(configuration_, &ChoiceField::entered, this, [this](const QString& text) {
+        Scene scene = document_.scene();
+        scene.configuration = text == as_listed ? std::string() : text.toStdString();
+        document_.edit_scene(scene, "change configuration", "configuration");
+    });
+}
+
+void SceneBar::follow_document() {
+    show_title();
+    const bool empty = document_.is_empty();
+    for (QWidget* field : {static_cast<QWidget*>(f_number_), static_cast<QWidget*>(field_),
+                           static_cast<QWidget*>(azimuth_), static_cast<QWidget*>(spectrum_),
+                           static_cast<QWidget*>(tolerance_)}) {
+        field->setVisible(!empty);
+    }
+    const auto& configurations = document_.lens().configurations;
+    configuration_->setVisible(!configurations.empty());
+    if (empty) {
+        return;
+    }
+    const Scene& scene = document_.scene();
+    QStringList names = {as_listed};
+    for (const Configuration& configuration : configurations) {
+        names << QString::fromStdString(configuration.name);
+    }
+    configuration_->set_choices(names);
+    configuration_->set_text(
+        scene.configuration.empty() ? as_listed : QString::fromStdString(scene.configuration));
+    field_->set_text(angle_text(scene.light.field_deg));
+    azimuth_->set_text(angle_text(scene.light.azimuth_deg));
+    spectrum_->set_text(QString::fromStdString(name(scene.spectrum)));
+    tolerance_->set_text(shortest(std::round(scene.tolerance * 1e7) / 1e5));
+    try {
+        shown_f_number_ = first_order(compile(document_.configured_lens(), d_line_nm)).f_number;
+        f_number_->set_text(at_least_decimals(std::round(shown_f_number_ * 100.0) / 100.0, 1));
+    } catch (const Error&) {
+        f_number_->set_text("–");  // the banner says why
+    }
+}
+
+void SceneBar::show_title() {
+    const QString title = document_.is_empty() ? QStringLiteral("No lens") : document_.title();
+    title_->setText(title_->fontMetrics().elidedText(title, Qt::ElideRight, title_->width()));
+    title_->setToolTip(title + (document_.lens().source.empty()
+                                    ? QString()
+                                    : "\n" + QString::fromStdString(document_.lens().source)));
+}
+
+void SceneBar::resizeEvent(QResizeEvent* event) {
+    QToolBar::resizeEvent(event);
+    show_title();
+}
+
+}  // namespace ghostlight

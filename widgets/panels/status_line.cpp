@@ -1,0 +1,107 @@
+#include "widgets/panels/status_line.h"
+
+#include <QHBoxLayout>
+
+#include <algorithm>
+
+#include "core/parallel.h"
+#include "widgets/document.h"
+#include "widgets/number_text.h"
+#include "widgets/tabular_text.h"
+
+namespace ghostlight {
+
+namespace {
+
+QString milliseconds(double ms) { return QString::number(ms, 'f', ms < 9.95 ? 1 : 0); }
+
+}  // namespace
+
+StatusLine::StatusLine(Document& document, QWidget* parent)
+    : QWidget(parent),
+      document_(document),
+      table_(new TabularLabel),
+      timing_(new TabularLabel),
+      message_(new TabularLabel),
+      engine_(new TabularLabel),
+      saved_(new TabularLabel) {
+    setObjectName("status_line");
+    setAttribute(Qt::WA_StyledBackground);
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(12, 6, 12, 6);
+    row->setSpacing(32);
+    row->addWidget(table_);
+    row->addWidget(timing_);
+    row->addWidget(message_);
+    row->addStretch();
+    row->addWidget(engine_);
+    row->addWidget(saved_);
+    timing_->setToolTip("From the last change to its first picture on screen");
+    const unsigned threads = default_thread_count();
+    engine_->set_text(
+        QStringLiteral("CPU · %1 thread%2").arg(threads).arg(threads == 1 ? "" : "s"));
+    connect(&document_, &Document::changed, this, &StatusLine::follow_document);
+    connect(&document_, &Document::opened, this, [this] {
+        table_->set_text({});
+        timing_->set_text({});
+    });
+    connect(&document_, &Document::file_changed, this, &StatusLine::show_saved);
+    show_saved();
+}
+
+void StatusLine::show_table(const GhostTable& table) {
+    const auto refined = std::count_if(table.ghosts.begin(), table.ghosts.end(),
+                                       [](const GhostRow& row) { return row.converged; });
+    QString text = QStringLiteral("*%1 ghosts* · %2 rays · %3 s")
+                       .arg(table.ghosts.size())
+                       .arg(grouped(table.rays), significant(table.seconds, 2));
+    const auto open = static_cast<std::ptrdiff_t>(table.ghosts.size()) - refined;
+    text += open == 0 ? QStringLiteral(" · all within %1 %")
+                            .arg(shortest(document_.scene().tolerance * 100.0))
+                      : QStringLiteral(" · %1 above the tolerance").arg(open);
+    table_->set_text(text);
+}
+
+void StatusLine::show_progress(double share) {
+    table_->set_text(QStringLiteral("ghost table *%1 %*").arg(qRound(share * 100.0)));
+}
+
+void StatusLine::show_picture(const FlarePicture& picture, double upload_ms) {
+    if (picture.revision == timed_revision_) {
+        return;  // the finer picture of the same change
+    }
+    timed_revision_ = picture.revision;
+    const double total_ms = std::chrono::duration<double, std::milli>(
+                                std::chrono::steady_clock::now() - picture.changed_at)
+                                .count();
+    const FlareTimes& times = picture.image->times;
+    timing_->set_text(QStringLiteral("*%1 ms* trace %2 · raster %3 · show %4")
+                          .arg(milliseconds(total_ms),
+                               milliseconds(times.bounds_ms + times.trace_ms),
+                               milliseconds(times.raster_ms), milliseconds(upload_ms)));
+}
+
+void StatusLine::show_message(const QString& message) { message_->set_text(message); }
+
+QString StatusLine::timing_text() const { return timing_->text().remove('*'); }
+
+QString StatusLine::table_text() const { return table_->text().remove('*'); }
+
+void StatusLine::follow_document() {
+    message_->set_text({});
+    show_saved();
+}
+
+void StatusLine::show_saved() {
+    if (document_.is_empty()) {
+        saved_->set_text({});
+    } else if (document_.is_modified()) {
+        saved_->set_text("*unsaved edits*");
+    } else if (document_.saved_at().isValid()) {
+        saved_->set_text("saved " + document_.saved_at().toString("HH:mm"));
+    } else {
+        saved_->set_text("as on file");
+    }
+}
+
+}  // namespace ghostlight

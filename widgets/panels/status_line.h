@@ -1,0 +1,42 @@
+#pragma once
+
+#include <QWidget>
+
+#include <chrono>
+
+#include "widgets/jobs.h"
+
+namespace ghostlight {
+
+class Document;
+class TabularLabel;
+
+/// The bottom line: what was computed, how well, how fast, on what, and whether it is saved.
+class StatusLine : public QWidget {
+    Q_OBJECT
+   public:
+    explicit StatusLine(Document& document, QWidget* parent = nullptr);
+
+    void show_table(const GhostTable& table);
+    void show_progress(double share);
+    /// A picture is on screen: its parts, and the time since the change that asked for it.
+    void show_picture(const FlarePicture& picture, double upload_ms);
+    /// A thing that was done ("Wrote flare.exr"), until the next change.
+    void show_message(const QString& message);
+    QString timing_text() const;
+    QString table_text() const;
+
+   private:
+    void follow_document();
+    void show_saved();
+
+    Document& document_;
+    TabularLabel* table_;
+    TabularLabel* timing_;
+    TabularLabel* message_;
+    TabularLabel* engine_;
+    TabularLabel* saved_;
+    std::uint64_t timed_revision_ = 0;
+};
+
+}  // namespace ghostlight

@@ -1,0 +1,86 @@
+#include "widgets/scene.h"
+
+#include <QByteArray>
+#include <QJsonDocument>
+#include <QJsonObject>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/optics/optical_system.h"
+#include "core/optics/paraxial.h"
+#include "core/units.h"
+
+namespace ghostlight {
+
+double half_field_deg(const Prescription& configured) {
+    constexpr double unknown_deg = 20.0;
+    if (configured.published.half_field_deg) {
+        return *configured.published.half_field_deg;
+    }
+    try {
+        const double efl_mm = first_order(compile(configured, d_line_nm)).efl_mm;
+        const double half_diagonal_mm =
+            0.5 * std::hypot(configured.sensor.width_mm, configured.sensor.height_mm);
+        if (std::isfinite(efl_mm) && efl_mm != 0.0) {
+            return deg_from_rad(std::atan(half_diagonal_mm / std::abs(efl_mm)));
+        }
+    } catch (const Error&) {
+    }
+    return unknown_deg;
+}
+
+Scene default_scene(const Prescription& lens) {
+    Scene scene;
+    scene.light.field_deg = std::min(10.0, std::round(half_field_deg(lens) * 6.0) / 10.0);
+    return scene;
+}
+
+double drawing_wavelength_nm(const Scene& scene) {
+    const auto* line = std::get_if<Monochromatic>(&scene.spectrum);
+    return line != nullptr ? line->wavelength_nm : d_line_nm;
+}
+
+std::string scene_to_json(const Scene& scene) {
+    QJsonObject object;
+    if (!scene.configuration.empty()) {
+        object["configuration"] = QString::fromStdString(scene.configuration);
+    }
+    object["field_deg"] = scene.light.field_deg;
+    object["azimuth_deg"] = scene.light.azimuth_deg;
+    object["spectrum"] = QString::fromStdString(name(scene.spectrum));
+    object["tolerance"] = scene.tolerance;
+    return QJsonDocument(object).toJson(QJsonDocument::Compact).toStdString();
+}
+
+Scene scene_from_json(std::string_view text, const Prescription& lens, const Scene& otherwise) {
+    Scene scene = otherwise;
+    const QJsonObject object =
+        QJsonDocument::fromJson(QByteArray(text.data(), static_cast<qsizetype>(text.size())))
+            .object();
+    const std::string configuration = object["configuration"].toString().toStdString();
+    for (const Configuration& known : lens.configurations) {
+        if (known.name == configuration) {
+            scene.configuration = configuration;
+        }
+    }
+    const double field_deg = object["field_deg"].toDouble(scene.light.field_deg);
+    if (std::abs(field_deg) < 90.0) {
+        scene.light.field_deg = field_deg;
+    }
+    scene.light.azimuth_deg = object["azimuth_deg"].toDouble(scene.light.azimuth_deg);
+    const double tolerance = object["tolerance"].toDouble(scene.tolerance);
+    if (tolerance > 0.0 && tolerance < 1.0) {
+        scene.tolerance = tolerance;
+    }
+    try {
+        if (object.contains("spectrum")) {
+            scene.spectrum = parse_spectrum(object["spectrum"].toString().toStdString());
+        }
+    } catch (const Error&) {
+    }
+    return scene;
+}
+
+}  // namespace ghostlight

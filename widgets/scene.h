@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/flare/spectrum.h"
+#include "core/optics/prescription.h"
+#include "core/optics/trace.h"
+
+namespace ghostlight {
+
+/// How a lens is looked at: undone and saved together with it, but no part of it.
+struct Scene {
+    std::string configuration;  ///< empty: as listed
+    LightDirection light{10.0, 90.0};
+    Spectrum spectrum = StandardLight{Illuminant::d65};
+    double tolerance = 0.01;  ///< of the ghost table's fluxes
+    bool operator==(const Scene&) const = default;
+};
+
+/// A light inside the picture, off centre.
+Scene default_scene(const Prescription& lens);
+
+/// Angle from the axis to the sensor's corner, degrees: as published, else by the focal length.
+double half_field_deg(const Prescription& configured);
+
+/// The wavelength by which single rays are drawn: the light's own, else the d line.
+double drawing_wavelength_nm(const Scene& scene);
+
+/// In a lens file the scene is the field "scene", which readers of lenses pass over.
+inline constexpr std::string_view scene_field = "scene";
+std::string scene_to_json(const Scene& scene);
+/// Takes what it understands from the text and the rest from `otherwise`: a scene is a
+/// convenience and never a reason to refuse a lens. The configuration must be one of the lens's.
+Scene scene_from_json(std::string_view text, const Prescription& lens, const Scene& otherwise);
+
+}  // namespace ghostlight

@@ -1,0 +1,52 @@
+#include "widgets/settings.h"
+
+#include <QDir>
+#include <QSettings>
+
+namespace ghostlight::settings {
+
+QStringList recent_files() { return QSettings().value("recent_files").toStringList(); }
+
+void add_recent_file(const QString& file) {
+    QStringList files = recent_files();
+    files.removeAll(file);
+    files.prepend(file);
+    while (files.size() > recent_limit) {
+        files.removeLast();
+    }
+    QSettings().setValue("recent_files", files);
+}
+
+void forget_recent_file(const QString& file) {
+    QStringList files = recent_files();
+    files.removeAll(file);
+    QSettings().setValue("recent_files", files);
+}
+
+Theme theme() {
+    return QSettings().value("theme").toString() == "light" ? Theme::light : Theme::dark;
+}
+
+void set_theme(Theme theme) {
+    QSettings().setValue("theme", theme == Theme::light ? "light" : "dark");
+}
+
+QByteArray window_geometry() { return QSettings().value("window/geometry").toByteArray(); }
+
+QByteArray window_state() { return QSettings().value("window/state").toByteArray(); }
+
+void set_window(const QByteArray& geometry, const QByteArray& state) {
+    QSettings stored;
+    stored.setValue("window/geometry", geometry);
+    stored.setValue("window/state", state);
+}
+
+double ghost_threshold() { return QSettings().value("ghost_threshold", 0.0).toDouble(); }
+
+void set_ghost_threshold(double share) { QSettings().setValue("ghost_threshold", share); }
+
+QString folder() { return QSettings().value("folder", QDir::homePath()).toString(); }
+
+void set_folder(const QString& folder) { QSettings().setValue("folder", folder); }
+
+}  // namespace ghostlight::settings

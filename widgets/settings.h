@@ -1,0 +1,35 @@
+#pragma once
+
+#include <QByteArray>
+#include <QStringList>
+
+#include "widgets/theme.h"
+
+namespace ghostlight {
+
+/// Taste, kept between runs; nothing here is undone.
+namespace settings {
+
+inline constexpr int recent_limit = 10;
+QStringList recent_files();
+void add_recent_file(const QString& file);
+void forget_recent_file(const QString& file);
+
+Theme theme();
+void set_theme(Theme theme);
+
+QByteArray window_geometry();
+QByteArray window_state();
+void set_window(const QByteArray& geometry, const QByteArray& state);
+
+/// Ghosts weaker than this share of the strongest are not listed; 0 lists all.
+double ghost_threshold();
+void set_ghost_threshold(double share);
+
+/// Where file dialogs open.
+QString folder();
+void set_folder(const QString& folder);
+
+}  // namespace settings
+
+}  // namespace ghostlight

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+
+namespace ghostlight {
+
+class MainWindow;
+
+/// Waits until the window shows its lens, and writes workbench.png, ghosts.csv and flare.exr into
+/// a folder. Throws Error when something fails.
+void write_snapshot(MainWindow& window, const std::filesystem::path& folder);
+
+/// Runs the event loop until the window's views are up to date; false after a time-out.
+bool wait_until_settled(MainWindow& window, int timeout_ms);
+
+}  // namespace ghostlight
