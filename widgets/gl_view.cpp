@@ -3,6 +3,7 @@
 #include <QOffscreenSurface>
 #include <QOpenGLContext>
 #include <QOpenGLFunctions>
+#include <QOpenGLPaintDevice>
 #include <QOpenGLWidget>
 #include <QPainter>
 #include <QTimer>
@@ -82,8 +83,9 @@ class GlView::Surface : public QOpenGLWidget {
             return;
         }
         const qreal ratio = devicePixelRatio();
-        view_->paint_gl(defaultFramebufferObject(), static_cast<int>(std::lround(width() * ratio)),
-                        static_cast<int>(std::lround(height() * ratio)));
+        const QSize size_px(static_cast<int>(std::lround(width() * ratio)),
+                            static_cast<int>(std::lround(height() * ratio)));
+        view_->paint_gl(defaultFramebufferObject(), size_px.width(), size_px.height());
         // The window blends this surface by its alpha, which must not depend on what was drawn.
         gl->glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
         gl->glDisable(GL_SCISSOR_TEST);
@@ -91,7 +93,12 @@ class GlView::Surface : public QOpenGLWidget {
         gl->glClearColor(0, 0, 0, 1);
         gl->glClear(GL_COLOR_BUFFER_BIT);
         gl->glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-        QPainter painter(this);
+        gl->glViewport(0, 0, size_px.width(), size_px.height());
+        // Not QPainter(this): QWidget::grab() redirects that away from the framebuffer.
+        QOpenGLPaintDevice device(size_px);
+        device.setDevicePixelRatio(ratio);
+        QPainter painter(&device);
+        painter.setFont(view_->font());
         painter.setRenderHints(QPainter::Antialiasing | QPainter::TextAntialiasing);
         view_->paint_overlay(painter);
     }

@@ -41,12 +41,10 @@ void paint_hovered(QPainter& painter, const LensDrawing& drawing, const PlaneVie
 void paint_sensor_label(QPainter& painter, const LensDrawing& drawing, const PlaneView& plane) {
     const QString text = QObject::tr("sensor");
     const QFontMetricsF metrics(painter.font());
-    const double width = metrics.horizontalAdvance(text);
     const QPointF end = plane.to_view({drawing.sensor.z_mm, -drawing.sensor.half_length_mm});
-    const double half = width / 2.0;
-    const double x = std::min(end.x() - half, plane.size_px().width() - width - label_gap_px);
+    const double x = end.x() - label_gap_px - metrics.horizontalAdvance(text);
     painter.setPen(current_palette().dim);
-    painter.drawText(QPointF(x, end.y() + label_gap_px + metrics.ascent()), text);
+    painter.drawText(QPointF(x, end.y()), text);
 }
 
 struct PlacedMark {

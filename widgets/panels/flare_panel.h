@@ -31,12 +31,13 @@ class FlarePanel : public QWidget {
     /// Exposure in stops; 0 shows an irradiance of E0 as white.
     void set_exposure_ev(double exposure_ev);
     double exposure_ev() const;
-    /// Exposes so that all but the brightest half per cent of the lit picture is below white.
+    /// Exposes so that all but the brightest per cent of the lit picture is below white.
     void auto_expose();
     /// Dims the header's state while the picture is older than the lens it belongs to.
     void set_dimmed(bool stale);
     /// Time that the last picture took from memory to the graphics card, ms.
     double last_upload_ms() const;
+    FlareView* view() const { return view_; }
     /// What the view shows, in device pixels; null if it cannot be drawn.
     QImage grab_view();
 
@@ -51,7 +52,6 @@ class FlarePanel : public QWidget {
     PanelHeader* header_ = nullptr;
     FlareView* view_ = nullptr;
     bool expose_next_ = true;
-    bool stale_ = false;
 };
 
 }  // namespace ghostlight

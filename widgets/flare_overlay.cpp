@@ -1,0 +1,152 @@
+#include "widgets/flare_overlay.h"
+
+#include <QFont>
+#include <QFontMetricsF>
+#include <QObject>
+#include <QPainter>
+#include <QPolygonF>
+
+#include <algorithm>
+#include <cmath>
+
+#include "widgets/light_marker.h"
+#include "widgets/number_text.h"
+#include "widgets/palette.h"
+
+namespace ghostlight {
+
+namespace {
+
+constexpr double ring_radius_px = 7.0;
+constexpr double border_px = 14.0;  // of the arrow's tip from the view's edge
+constexpr double arrow_length_px = 12.0, arrow_half_width_px = 6.0;
+constexpr double readout_offset_px = 16.0, readout_padding_px = 8.0;
+constexpr double under_px = 4.0;  // a dark line under the amber one keeps it visible on white
+
+void paint_ring(QPainter& painter, QPointF at) {
+    painter.setBrush(Qt::NoBrush);
+    painter.setPen(QPen(QColor(0, 0, 0, 150), under_px));
+    painter.drawEllipse(at, ring_radius_px, ring_radius_px);
+    painter.setPen(QPen(current_palette().amber, 1.75));
+    painter.drawEllipse(at, ring_radius_px, ring_radius_px);
+}
+
+void paint_arrow(QPainter& painter, QPointF center, QPointF light, QSizeF view_px,
+                 const QString& label) {
+    QPointF along = light - center;
+    along /= std::hypot(along.x(), along.y());
+    // From the picture's centre to the border of the view.
+    const double right = view_px.width() - border_px, bottom = view_px.height() - border_px;
+    double reach = std::hypot(view_px.width(), view_px.height());
+    const auto limit = [&](double from, double step, double low, double high) {
+        if (step != 0.0) {
+            reach = std::min(reach, std::max(0.0, ((step > 0.0 ? high : low) - from) / step));
+        }
+    };
+    limit(center.x(), along.x(), border_px, right);
+    limit(center.y(), along.y(), border_px, bottom);
+    const QPointF tip = center + along * reach;
+    const QPointF across(-along.y(), along.x());
+    const QPointF tail = tip - along * arrow_length_px;
+    const QPolygonF arrow{{tip, tail + across * arrow_half_width_px,
+                           tail + along * 3.0, tail - across * arrow_half_width_px}};
+    painter.setBrush(current_palette().amber);
+    painter.setPen(QPen(QColor(0, 0, 0, 150), 1.5));
+    painter.drawPolygon(arrow);
+
+    const QFontMetricsF metrics(painter.font());
+    const QSizeF text(metrics.horizontalAdvance(label), metrics.height());
+    QPointF middle = tail - along * (6.0 + std::abs(along.x()) * text.width() / 2.0 +
+                                     std::abs(along.y()) * text.height() / 2.0);
+    QRectF box(middle.x() - text.width() / 2.0, middle.y() - text.height() / 2.0, text.width(),
+               text.height());
+    box.moveLeft(std::clamp(box.left(), 4.0, std::max(4.0, view_px.width() - text.width() - 4.0)));
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(QColor(0, 0, 0, 150));
+    painter.drawRoundedRect(box.adjusted(-4.0, -1.0, 4.0, 1.0), 3.0, 3.0);
+    painter.setPen(current_palette().amber);
+    painter.drawText(box, Qt::AlignCenter, label);
+}
+
+}  // namespace
+
+void paint_light(QPainter& painter, const PictureFrame& frame, QSizeF view_px,
+                 const LightDirection& light, double efl_mm) {
+    const glm::dvec2 at = frame.view_from_sensor(light_on_sensor_mm(light, efl_mm));
+    if (!std::isfinite(at.x) || !std::isfinite(at.y)) {
+        return;
+    }
+    const bool inside = at.x >= 0.0 && at.y >= 0.0 && at.x < view_px.width() && at.y < view_px.height();
+    if (inside) {
+        paint_ring(painter, {at.x, at.y});
+        return;
+    }
+    const glm::dvec2 center = frame.view_from_sensor({0.0, 0.0});
+    const QPointF from(std::clamp(center.x, border_px, view_px.width() - border_px),
+                       std::clamp(center.y, border_px, view_px.height() - border_px));
+    paint_arrow(painter, from, {at.x, at.y}, view_px,
+                QString::number(light.field_deg, 'f', 1) + QChar(0xb0));
+}
+
+std::optional<float> irradiance_at(const FlareImage& image, double x_mm, double y_mm) {
+    const double across = x_mm / image.sensor_width_mm + 0.5;
+    const double up = y_mm / image.sensor_height_mm + 0.5;
+    if (!(across >= 0.0 && across < 1.0 && up >= 0.0 && up < 1.0)) {
+        return std::nullopt;
+    }
+    const auto column = static_cast<std::size_t>(across * image.width_px);
+    const auto row = static_cast<std::size_t>(up * image.height_px);
+    const std::size_t index = row * static_cast<std::size_t>(image.width_px) + column;
+    return index < image.irradiance.size() ? std::optional(image.irradiance[index]) : std::nullopt;
+}
+
+QString position_text(double x_mm, double y_mm) {
+    QString text = QStringLiteral("%1, %2 mm")
+                       .arg(QString::number(x_mm, 'f', 2), QString::number(y_mm, 'f', 2));
+    return text.replace('-', QChar(0x2212));
+}
+
+void paint_readout(QPainter& painter, const PictureFrame& frame, QSizeF view_px,
+                   const FlareImage& image, QPointF cursor) {
+    const glm::dvec2 point = frame.sensor_from_view({cursor.x(), cursor.y()});
+    const std::optional<float> irradiance = irradiance_at(image, point.x, point.y);
+    if (!irradiance) {
+        return;
+    }
+    const Palette& colors = current_palette();
+    const QString position = position_text(point.x, point.y);
+    const QString amount =
+        *irradiance > 0.0F
+            ? QObject::tr("irradiance %1 E₀").arg(significant(static_cast<double>(*irradiance), 2))
+            : QObject::tr("no ghost here");
+    QFont bold = painter.font();
+    bold.setWeight(QFont::DemiBold);
+    const QFontMetricsF bold_metrics(bold), metrics(painter.font());
+    const double line = metrics.height() + 2.0;
+    const double width = std::max(bold_metrics.horizontalAdvance(position),
+                                  metrics.horizontalAdvance(amount)) +
+                         2.0 * readout_padding_px;
+    QRectF box(cursor.x() + readout_offset_px, cursor.y() + readout_offset_px, std::ceil(width),
+               std::ceil(2.0 * line + 2.0 * readout_padding_px - 2.0));
+    // On the cursor's other side where there is no room.
+    if (box.right() > view_px.width() - 4.0) {
+        box.moveRight(cursor.x() - readout_offset_px);
+    }
+    if (box.bottom() > view_px.height() - 4.0) {
+        box.moveBottom(cursor.y() - readout_offset_px);
+    }
+    QColor ground = colors.panel;
+    ground.setAlphaF(0.93F);
+    painter.setBrush(ground);
+    painter.setPen(QPen(colors.line, 1.0));
+    painter.drawRoundedRect(box, 4.0, 4.0);
+    const QFont plain = painter.font();
+    const QRectF inside = box.adjusted(readout_padding_px, readout_padding_px - 1.0, 0.0, 0.0);
+    painter.setFont(bold);
+    painter.setPen(colors.text);
+    painter.drawText(inside, Qt::AlignLeft | Qt::AlignTop, position);
+    painter.setFont(plain);
+    painter.drawText(inside.translated(0.0, line), Qt::AlignLeft | Qt::AlignTop, amount);
+}
+
+}  // namespace ghostlight
