@@ -208,6 +208,10 @@ LensFile lens_from_own_json(const JsonAt& root) {
                  lens.unknown);
     validate_in_file(lens, root.file());
     result.notes = findings(lens);
+    for (std::size_t row = 0; row < lens.surfaces.size(); ++row)
+        for (const auto& [name, text] : lens.surfaces[row].unknown)
+            result.notes.push_back({Note::Severity::info, fmt::format("surfaces[{}]", row + 1),
+                                    "a field that is not known is kept but not used: " + name});
     return result;
 }
 

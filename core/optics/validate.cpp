@@ -173,7 +173,7 @@ void check_configurations(const Prescription& lens) {
                 refuse(where + ".thickness_mm", "the row does not exist",
                        fmt::format("{}", row + 1),
                        fmt::format("a row from 1 to {}", lens.surfaces.size()));
-            require_thickness(fmt::format("{}.thickness_mm[{}]", where, row + 1), thickness_mm);
+            require_thickness(fmt::format("{}.thickness_mm.{}", where, row + 1), thickness_mm);
         }
         if (each.f_number)
             require_f_number(where + ".f_number", *each.f_number);

@@ -147,6 +147,14 @@ TEST(LensJson, UnknownFieldsAreKeptAtEveryLevel) {
         EXPECT_THAT(written, testing::HasSubstr(kept));
 }
 
+TEST(LensJson, AnUnknownFieldOfASurfaceIsNoted) {
+    const LensFile file =
+        lens_from_json(with("\"radius_mm\": 50", "\"radius_mm\": 50, \"coatng\": 1"), "t.json");
+    ASSERT_EQ(file.notes.size(), 1u);
+    EXPECT_EQ(file.notes[0].where, "surfaces[1]");
+    EXPECT_THAT(file.notes[0].text, testing::HasSubstr("coatng"));
+}
+
 TEST(LensJson, FieldsWhoseObjectIsGoneAreDropped) {
     Prescription lens = read(with("\"nd\": 1.5,", "\"nd\": 1.5, \"melt\": 3,"));
     EXPECT_EQ(lens.surfaces[0].unknown.size(), 1u);
@@ -361,7 +369,7 @@ const Fault faults[] = {
     {"\"thickness_mm\": {\"3\": 45}", "\"thickness_mm\": {\"3\": \"45\"}",
      "configurations[1].thickness_mm.3", "\"45\"", "mm"},
     {"\"thickness_mm\": {\"3\": 45}", "\"thickness_mm\": {\"3\": -45}",
-     "configurations[1].thickness_mm[3]", "-45", "0 to"},
+     "configurations[1].thickness_mm.3", "-45", "0 to"},
     {"\"thickness_mm\": {\"3\": 45}", "\"f_number\": 0", "configurations[1].f_number", "0",
      "above 0"},
     {"{\"name\": \"near\",", "{\"name\": \"near\"}, {\"name\": \"near\",", "configurations[2].name",

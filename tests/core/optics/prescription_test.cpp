@@ -193,7 +193,7 @@ TEST(Prescription, EachFaultIsNamedByItsField) {
         {"configurations[2].name", [](auto& lens) { lens.configurations[1].name = "near"; }},
         {"configurations[2].thickness_mm",
          [](auto& lens) { lens.configurations[1].thickness_mm[6] = 1.0; }},
-        {"configurations[2].thickness_mm[1]",
+        {"configurations[2].thickness_mm.1",
          [](auto& lens) { lens.configurations[1].thickness_mm[0] = -1.0; }},
         {"configurations[1].f_number", [](auto& lens) { lens.configurations[0].f_number = -1; }},
     };
