@@ -28,9 +28,7 @@ struct CurvatureOf {
 
 }  // namespace
 
-double curvature_per_mm(const BaseCurve& curve) {
-    return std::visit(CurvatureOf{}, curve);
-}
+double curvature_per_mm(const BaseCurve& curve) { return std::visit(CurvatureOf{}, curve); }
 
 const Medium& medium_before(const Prescription& lens, std::size_t row) {
     static const Medium air;
@@ -40,11 +38,9 @@ const Medium& medium_before(const Prescription& lens, std::size_t row) {
 Prescription configured(const Prescription& lens, std::string_view configuration) {
     Prescription result = lens;
     result.configurations.clear();
-    if (configuration.empty())
-        return result;
+    if (configuration.empty()) return result;
     const auto found = std::ranges::find(lens.configurations, configuration, &Configuration::name);
-    if (found == lens.configurations.end())
-        refuse_configuration(lens, configuration);
+    if (found == lens.configurations.end()) refuse_configuration(lens, configuration);
     for (const auto& [row, thickness_mm] : found->thickness_mm) {
         if (row >= result.surfaces.size())
             throw Error({.problem = "the configuration changes a row that does not exist",

@@ -29,8 +29,7 @@ constexpr std::size_t most_aspheric_terms = 20;
 
 void require(bool fine, const std::string& where, double value, std::string_view problem,
              std::string_view expected) {
-    if (!fine)
-        refuse(where, problem, fmt::format("{}", value), expected);
+    if (!fine) refuse(where, problem, fmt::format("{}", value), expected);
 }
 
 // Every comparison is written so that NaN fails it.
@@ -132,8 +131,7 @@ void check_surface(const Surface& surface, const std::string& where) {
     if (surface.aspheric.size() > most_aspheric_terms)
         refuse(where + ".aspheric", "too many terms", fmt::format("{}", surface.aspheric.size()),
                "at most 20 (A4 to A42)");
-    for (const double term : surface.aspheric)
-        require_finite(where + ".aspheric", term);
+    for (const double term : surface.aspheric) require_finite(where + ".aspheric", term);
     require_thickness(where + ".thickness_mm", surface.thickness_mm);
     check_medium(surface.medium_after, where, 1.0);
     require_length(where + ".semi_diameter_mm", surface.semi_diameter_mm);
@@ -144,10 +142,8 @@ void check_stop(const Stop& stop, std::size_t surfaces) {
     if (stop.surface >= surfaces)
         refuse("stop.surface", "the stop's row does not exist", fmt::format("{}", stop.surface + 1),
                fmt::format("a row from 1 to {}", surfaces));
-    if (stop.f_number)
-        require_f_number("stop.f_number", *stop.f_number);
-    if (stop.semi_diameter_mm)
-        require_length("stop.semi_diameter_mm", *stop.semi_diameter_mm);
+    if (stop.f_number) require_f_number("stop.f_number", *stop.f_number);
+    if (stop.semi_diameter_mm) require_length("stop.semi_diameter_mm", *stop.semi_diameter_mm);
     if (stop.blades < 0 || stop.blades == 1 || stop.blades == 2 || stop.blades > 1000)
         refuse("stop.blades", "not a usable number of blades", fmt::format("{}", stop.blades),
                "0 (round), or 3 to 1000");
@@ -175,8 +171,7 @@ void check_configurations(const Prescription& lens) {
                        fmt::format("a row from 1 to {}", lens.surfaces.size()));
             require_thickness(fmt::format("{}.thickness_mm.{}", where, row + 1), thickness_mm);
         }
-        if (each.f_number)
-            require_f_number(where + ".f_number", *each.f_number);
+        if (each.f_number) require_f_number(where + ".f_number", *each.f_number);
     }
 }
 
