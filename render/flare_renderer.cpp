@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <string>
 
 #include "core/error.h"
 #include "render_shaders.h"
@@ -59,9 +60,21 @@ FlareRenderer::FlareRenderer() {
     }
     while (glGetError() != GL_NO_ERROR) {  // another's
     }
-    program_ = GlProgram(shaders::picture_vertex, shaders::picture_fragment);
+    program(false, false);
     vertices_.create();
     check_gl("preparing the flare view");
+}
+
+const GlProgram& FlareRenderer::program(bool exact, bool highlight) {
+    std::optional<GlProgram>& made = programs_[(exact ? 1U : 0U) + (highlight ? 2U : 0U)];
+    if (!made) {
+        std::string fragment = "#version 150\n";
+        fragment += exact ? "#define EXACT\n" : "";
+        fragment += highlight ? "#define HIGHLIGHT\n" : "";
+        fragment += shaders::picture_fragment;
+        made.emplace(shaders::picture_vertex, fragment);
+    }
+    return *made;
 }
 
 void FlareRenderer::draw(const PictureTexture& picture, const PictureFrame& frame,
@@ -86,21 +99,21 @@ void FlareRenderer::draw(const PictureTexture& picture, const PictureFrame& fram
     const auto clip_y = [&](double px) { return static_cast<float>(1.0 - 2.0 * px / height); };
     const bool highlight = look.show_highlight && picture.highlight != 0;
     const double px_per_texel = frame.width_px / std::max(picture.width_px, 1);
+    const GlProgram& program_used = program(px_per_texel >= exact_px_per_texel, highlight);
+    const auto uniform = [&](const char* name) { return program_used.uniform(name); };
 
-    glUseProgram(program_.name());
-    glUniform4f(program_.uniform("rectangle"), clip_x(frame.left_px),
+    glUseProgram(program_used.name());
+    glUniform4f(uniform("rectangle"), clip_x(frame.left_px),
                 clip_y(frame.top_px + frame.height_px), clip_x(frame.left_px + frame.width_px),
                 clip_y(frame.top_px));
-    glUniform1f(program_.uniform("scale"), static_cast<float>(std::exp2(look.exposure_ev)));
-    glUniform1i(program_.uniform("exact"), px_per_texel >= exact_px_per_texel ? 1 : 0);
-    glUniform1i(program_.uniform("show_highlight"), highlight ? 1 : 0);
-    glUniform1f(program_.uniform("highlight_floor"), picture.highlight_floor);
-    glUniform3f(program_.uniform("highlight_color"), look.highlight[0], look.highlight[1],
+    glUniform1f(uniform("scale"), static_cast<float>(std::exp2(look.exposure_ev)));
+    glUniform1f(uniform("highlight_floor"), picture.highlight_floor);
+    glUniform3f(uniform("highlight_color"), look.highlight[0], look.highlight[1],
                 look.highlight[2]);
-    glUniform2f(program_.uniform("outline_step"), static_cast<float>(1.0 / frame.width_px),
+    glUniform2f(uniform("outline_step"), static_cast<float>(1.0 / frame.width_px),
                 static_cast<float>(1.0 / frame.height_px));
-    glUniform1i(program_.uniform("color_map"), 0);
-    glUniform1i(program_.uniform("highlight_map"), 1);
+    glUniform1i(uniform("color_map"), 0);
+    glUniform1i(uniform("highlight_map"), 1);
     glActiveTexture(GL_TEXTURE1);
     glBindTexture(GL_TEXTURE_2D, highlight ? picture.highlight : picture.color);
     glActiveTexture(GL_TEXTURE0);

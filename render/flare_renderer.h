@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "core/flare/flare_image.h"
 #include "render/gl_objects.h"
@@ -49,7 +50,10 @@ class FlareRenderer {
               int viewport_width_px, int viewport_height_px);
 
    private:
-    GlProgram program_;
+    /// One program per way of drawing, made when first needed.
+    const GlProgram& program(bool exact, bool highlight);
+
+    std::array<std::optional<GlProgram>, 4> programs_;
     GlVertexArray vertices_;
 };
 

@@ -1,4 +1,5 @@
 // The twin of core/flare/tone_map.cpp; tests/render/flare_renderer_test.cpp holds them together.
+const float tone_shoulder = 0.8;
 
 vec3 srgb_encoded(vec3 linear) {
     vec3 low = 12.92 * linear;
@@ -6,17 +7,11 @@ vec3 srgb_encoded(vec3 linear) {
     return mix(high, low, lessThanEqual(linear, vec3(0.0031308)));
 }
 
-vec3 shouldered(vec3 linear) {
-    const float knee = 0.8;
-    float brightest = max(linear.r, max(linear.g, linear.b));
-    if (brightest <= knee) {
-        return linear;
-    }
-    float room = 1.0 - knee;
-    float compressed = knee + room * (1.0 - exp(-(brightest - knee) / room));
-    return linear * (compressed / brightest);
-}
-
 vec3 tone_mapped(vec3 linear, float scale) {
-    return srgb_encoded(shouldered(max(linear * scale, 0.0)));
+    const float rest = 1.0 - tone_shoulder;
+    vec3 scaled = clamp(linear * scale, 0.0, 1e30);
+    float largest = max(scaled.r, max(scaled.g, scaled.b));
+    float mapped = min(largest, tone_shoulder) +
+                   rest * (1.0 - exp(-max(largest - tone_shoulder, 0.0) / rest));
+    return srgb_encoded(scaled * (mapped / max(largest, 1e-30)));
 }
