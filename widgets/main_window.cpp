@@ -150,7 +150,7 @@ void MainWindow::arrange_panels() {
         place.dock->show();
     }
     // Tables need a certain width and no more; pictures take what is left.
-    const int left = std::clamp(width() * 29 / 100, 360, 560);
+    const int left = std::clamp(width() * 32 / 100, 380, 640);
     const int right = std::clamp(width() * 24 / 100, 300, 620);
     resizeDocks({prescription_dock_, ghost_dock_}, {left, right}, Qt::Horizontal);
     resizeDocks({layout_dock_}, {height() * 36 / 100}, Qt::Vertical);

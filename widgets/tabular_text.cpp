@@ -3,6 +3,8 @@
 #include <QFontMetrics>
 #include <QPainter>
 
+#include <algorithm>
+
 #include "widgets/palette.h"
 
 namespace ghostlight {
@@ -87,7 +89,7 @@ void draw_tabular(QPainter& painter, const QRect& rect, Qt::Alignment alignment,
 }
 
 TabularLabel::TabularLabel(QWidget* parent) : QWidget(parent) {
-    setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
+    setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Fixed);
 }
 
 void TabularLabel::set_text(const QString& text) {
@@ -119,7 +121,11 @@ void TabularLabel::paintEvent(QPaintEvent*) {
     bool plain = false;
     for (const QString& part : text_.split('*')) {
         painter.setPen(warning_ ? colors.red_orange : plain ? colors.text : colors.dim);
-        draw_at(painter, x, baseline, part);
+        const int room = std::max(0, width() - x);
+        draw_at(painter, x, baseline,
+                measured(painter.fontMetrics(), part) <= room
+                    ? part
+                    : painter.fontMetrics().elidedText(part, Qt::ElideRight, room));
         x += measured(painter.fontMetrics(), part);
         plain = !plain;
     }

@@ -18,7 +18,8 @@ int tabular_width(const QFont& font, const QString& text);
 void draw_tabular(QPainter& painter, const QRect& rect, Qt::Alignment alignment,
                   const QString& text);
 
-/// A one-line label with tabular figures. Text between '*' is in the text colour, the rest dim.
+/// A one-line label with tabular figures, cut off with an ellipsis where it must be narrower than
+/// its text. Text between '*' is in the text colour, the rest dim.
 class TabularLabel : public QWidget {
    public:
     explicit TabularLabel(QWidget* parent = nullptr);

@@ -4,6 +4,7 @@
 #include <QFont>
 #include <QFontDatabase>
 #include <QPalette>
+#include <QProxyStyle>
 #include <QStyleFactory>
 
 #include "widgets/palette.h"
@@ -62,7 +63,8 @@ QTableView { background: @panel; border: none; outline: none; gridline-color: tr
     selection-background-color: @selection; selection-color: @text; }
 QHeaderView { background: @panel; border: none; }
 QHeaderView::section { background: @panel; color: @dim; border: none;
-    border-bottom: 1px solid @line; padding: 4px 8px; }
+    border-bottom: 1px solid @line; padding: 4px 6px; }
+QHeaderView::up-arrow, QHeaderView::down-arrow { image: none; width: 0; height: 0; }
 QTableCornerButton::section { background: @panel; border: none; }
 QScrollBar:vertical { background: transparent; width: 10px; margin: 0; }
 QScrollBar:horizontal { background: transparent; height: 10px; margin: 0; }
@@ -111,6 +113,17 @@ QPushButton:disabled { color: @faint; }
     return sheet;
 }
 
+/// The platform-neutral style, with the letters of keys underlined only while Alt is held.
+class QuietStyle : public QProxyStyle {
+   public:
+    QuietStyle() : QProxyStyle(QStyleFactory::create("Fusion")) {}
+    int styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
+                  QStyleHintReturn* data) const override {
+        return hint == SH_UnderlineShortcut ? 0
+                                            : QProxyStyle::styleHint(hint, option, widget, data);
+    }
+};
+
 QFont interface_font() {
     QFont font = QFontDatabase::systemFont(QFontDatabase::GeneralFont);
     if (QFontDatabase::families().contains("Inter")) {
@@ -125,7 +138,7 @@ QFont interface_font() {
 
 void apply_theme(QApplication& application, Theme theme) {
     current_palette() = theme == Theme::dark ? dark_palette() : light_palette();
-    QApplication::setStyle(QStyleFactory::create("Fusion"));
+    QApplication::setStyle(new QuietStyle);
     QApplication::setFont(interface_font());
     QApplication::setPalette(qt_palette(current_palette()));
     application.setStyleSheet(style_sheet(current_palette()));

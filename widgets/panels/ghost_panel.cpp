@@ -76,7 +76,6 @@ QTableView* make_table(QAbstractItemModel* model) {
     table->verticalHeader()->setDefaultSectionSize(table_row_height);
     table->verticalHeader()->setMinimumSectionSize(table_row_height);
     table->horizontalHeader()->setHighlightSections(false);
-    table->horizontalHeader()->setSortIndicatorShown(true);
     table->setSortingEnabled(true);
     table->sortByColumn(GhostTableModel::flux, Qt::DescendingOrder);
     return table;

@@ -2,7 +2,6 @@
 
 #include <QAction>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QLineEdit>
 #include <QSignalBlocker>
 
@@ -18,6 +17,7 @@
 #include "widgets/number_text.h"
 #include "widgets/panels/scene_field.h"
 #include "widgets/prescription_edits.h"
+#include "widgets/tabular_text.h"
 
 namespace ghostlight {
 
@@ -43,7 +43,7 @@ double wrapped_azimuth(double azimuth_deg) {
 SceneBar::SceneBar(Document& document, QWidget* parent)
     : QToolBar("Scene", parent),
       document_(document),
-      title_(new QLabel),
+      title_(new TabularLabel),
       configuration_(new ChoiceField("Configuration", "Zoom or focus position", false)),
       f_number_(new NumberField("f/", "", "F-number, set by the stop. Wheel or arrows: a third.")),
       field_(new NumberField("Field", "°", "Angle of the light from the axis. Wheel or arrows.")),
@@ -68,9 +68,8 @@ SceneBar::SceneBar(Document& document, QWidget* parent)
     QFont bold = title_->font();
     bold.setWeight(QFont::DemiBold);
     title_->setFont(bold);
-    title_->setMinimumWidth(0);
-    title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    row->addWidget(title_, 2);
+    row->addWidget(title_);
+    row->addSpacing(8);
     for (QWidget* field : {static_cast<QWidget*>(configuration_), static_cast<QWidget*>(f_number_),
                            static_cast<QWidget*>(field_), static_cast<QWidget*>(azimuth_),
                            static_cast<QWidget*>(spectrum_), static_cast<QWidget*>(tolerance_)}) {
@@ -209,15 +208,10 @@ void SceneBar::follow_document() {
 
 void SceneBar::show_title() {
     const QString title = document_.is_empty() ? QStringLiteral("No lens") : document_.title();
-    title_->setText(title_->fontMetrics().elidedText(title, Qt::ElideRight, title_->width()));
+    title_->set_text('*' + QString(title).remove('*') + '*');
     title_->setToolTip(title + (document_.lens().source.empty()
                                     ? QString()
                                     : "\n" + QString::fromStdString(document_.lens().source)));
-}
-
-void SceneBar::resizeEvent(QResizeEvent* event) {
-    QToolBar::resizeEvent(event);
-    show_title();
 }
 
 }  // namespace ghostlight

@@ -2,13 +2,12 @@
 
 #include <QToolBar>
 
-class QLabel;
-
 namespace ghostlight {
 
 class ChoiceField;
 class Document;
 class NumberField;
+class TabularLabel;
 
 /// What is looked at, in one row: the lens's name, its configuration and f-number, the light.
 class SceneBar : public QToolBar {
@@ -27,9 +26,6 @@ class SceneBar : public QToolBar {
     /// An entry was not taken, and why; empty when one was.
     void refused(const QString& reason);
 
-   protected:
-    void resizeEvent(QResizeEvent* event) override;
-
    private:
     void connect_fields();
     void follow_document();
@@ -42,7 +38,7 @@ class SceneBar : public QToolBar {
     void set_f_number(double f_number);
 
     Document& document_;
-    QLabel* title_;
+    TabularLabel* title_;
     ChoiceField* configuration_;
     NumberField* f_number_;
     NumberField* field_;

@@ -171,12 +171,13 @@ void ChoiceField::set_text(const QString& text) {
 void ChoiceField::set_refused(bool refused) { set_mark(*this, "refused", refused); }
 
 void ChoiceField::fit_width() {
-    // As wide as its widest choice, so that nothing moves when another is taken.
-    int widest = fontMetrics().horizontalAdvance(box_->currentText());
+    int widest = 0;
     for (int k = 0; k < box_->count(); ++k) {
         widest = std::max(widest, fontMetrics().horizontalAdvance(box_->itemText(k)));
     }
-    box_->setFixedWidth(std::min(widest + 12, 160));
+    constexpr int most_width = 160;
+    box_->setFixedWidth(
+        std::min(fontMetrics().horizontalAdvance(box_->currentText()) + 12, most_width));
     box_->view()->setMinimumWidth(widest + 32);
 }
 

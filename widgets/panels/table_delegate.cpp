@@ -10,10 +10,10 @@ namespace ghostlight {
 
 namespace {
 
-constexpr int margin = 8;
+constexpr int margin = 6;
 constexpr int chip = 12;
 constexpr int bar_height = 10;
-constexpr int bar_width = 72;
+constexpr int bar_width = 64;
 
 void draw_chip(QPainter& painter, const QRect& cell, int left, const QColor& color) {
     const QRect square(left, cell.center().y() - chip / 2 + 1, chip, chip);
