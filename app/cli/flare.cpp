@@ -97,7 +97,7 @@ void add_flare(CLI::App& program) {
     CLI::App* command = program.add_subcommand("flare", "the picture of all ghosts, as EXR or PNG");
     add_lens(*command, options->lens)->required();
     add_text(*command, "-o,--output", options->output.file, "FILE",
-             "the picture: .exr (float, linear, irradiance over that of the light) or .png (8 bit)")
+             "the picture: .exr (float, linear, over the light's irradiance) or .png")
         ->required();
     add_light(*command, options->light)->capture_default_str();
     add_spectrum(*command, options->spectrum);
@@ -105,7 +105,7 @@ void add_flare(CLI::App& program) {
              "width, pixels; the height follows from the sensor")
         ->capture_default_str();
     add_text(*command, "--exposure", options->exposure, "EV",
-             "PNG: stops above the exposure that shows the light's own irradiance as white; "
+             "PNG: stops above the exposure that shows the light's own irradiance as\nwhite; "
              "default: by the picture");
     CLI::Option* csv = command->add_flag("--csv", options->output.csv, "summary as CSV");
     command->add_flag("--json", options->output.json, "summary as JSON")->excludes(csv);

@@ -107,9 +107,9 @@ void add_ghosts(CLI::App& program) {
     add_light(*command, options->light)->required();
     add_spectrum(*command, options->spectrum);
     add_text(*command, "--top", options->top, "N", "the N strongest only");
-    add_text(
-        *command, "--tolerance", options->tolerance, "X",
-        "error of each flux, as a share of it, or 1e-6 of the strongest ghost if that is larger")
+    add_text(*command, "--tolerance", options->tolerance, "X",
+             "error allowed for each flux, as a share of it (or 1e-6 of the strongest\nghost, if "
+             "that is larger)")
         ->capture_default_str();
     command->add_flag("--paraxial", options->paraxial,
                       "add first-order data; with a spectrum at 587.5618 nm");

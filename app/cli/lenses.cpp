@@ -20,7 +20,8 @@ std::vector<Cell> row_of(const BundledLens& bundled) {
         configurations.push_back(configuration.name);
     const OpticalSystem system = compile(lens, d_line_nm);
     const FirstOrder first = first_order(system);
-    return {bundled.name,
+    return {short_name(bundled),
+            bundled.name,
             first.efl_mm,
             first.f_number,
             static_cast<std::int64_t>(lens.surfaces.size()),
@@ -32,8 +33,8 @@ std::vector<Cell> row_of(const BundledLens& bundled) {
 void run(const OutputOptions& output) {
     Report report;
     report.request = {{"command", json_string("lenses")}};
-    report.table.columns = {"lens",   "efl_mm",         "f_number", "surfaces",
-                            "ghosts", "configurations", "file"};
+    report.table.columns = {"lens",     "name",   "efl_mm",         "f_number",
+                            "surfaces", "ghosts", "configurations", "file"};
     for (const BundledLens& bundled : bundled_lenses()) {
         try {
             report.table.rows.push_back(row_of(bundled));

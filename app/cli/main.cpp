@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <string>
 #include <vector>
@@ -30,16 +31,18 @@ Exit status: 0, or 2 with one line on standard error.)";
 
 // CLI11 says of an unknown command only that one is required.
 void check_command(const CLI::App& program, const std::vector<std::string>& arguments) {
-    if (!arguments.empty() && arguments.front().starts_with('-')) return;
+    constexpr std::array<std::string_view, 3> without_command = {"-h", "--help", "--version"};
+    const std::string first = arguments.empty() ? "" : arguments.front();
+    if (std::find(without_command.begin(), without_command.end(), first) != without_command.end())
+        return;
     std::vector<std::string> names;
     for (const CLI::App* command : program.get_subcommands({}))
         names.push_back(command->get_name());
-    if (arguments.empty() ||
-        std::find(names.begin(), names.end(), arguments.front()) == names.end())
+    if (arguments.empty() || std::find(names.begin(), names.end(), first) == names.end())
         throw Error({.problem = arguments.empty() ? "no command" : "unknown command",
                      .file = {},
                      .where = {},
-                     .found = arguments.empty() ? "" : fmt::format("'{}'", arguments.front()),
+                     .found = arguments.empty() ? "" : fmt::format("'{}'", first),
                      .expected = fmt::format("one of {}, or --help", joined(names, ", "))});
 }
 

@@ -73,8 +73,8 @@ std::filesystem::path find_lens(const std::string& text) {
     std::vector<std::string> names;
     try {
         for (const BundledLens& lens : bundled_lenses()) {
-            if (lens.name == text) return lens.file;
-            names.push_back(lens.name);
+            names.push_back(short_name(lens));
+            if (text == names.back() || text == lens.name) return lens.file;
         }
     } catch (const Error&) {
         // Without the bundled lenses the answer is the same: there is no such file.
@@ -154,6 +154,8 @@ Error bad_value(std::string_view option, std::string_view found, std::string_vie
                   .found = fmt::format("'{}'", found),
                   .expected = std::string(expected)});
 }
+
+std::string short_name(const BundledLens& lens) { return lens.file.stem().string(); }
 
 std::string joined(const std::vector<std::string>& texts, std::string_view separator) {
     std::string all;
@@ -244,8 +246,8 @@ CLI::Option* add_lens(CLI::App& command, LensOptions& options) {
     add_text(command, "--sensor", options.sensor, "WxH", "size of the sensor, mm, such as 36x24")
         ->group(group);
     add_text(command, "--coating", options.coating, "none|qw:NM[:INDEX]",
-             "quarter-wave layer centred at NM nm on every surface with air on exactly one side, "
-             "none elsewhere; without INDEX it is MgF2; default: as the lens file says")
+             "quarter-wave layer centred at NM nm on every surface with air on exactly\n"
+             "one side, none elsewhere; without INDEX it is MgF2; default: as the\nlens file says")
         ->group(group);
     return lens;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/io/lens_file.h"
 #include "core/optics/prescription.h"
 #include "core/optics/trace.h"
 
@@ -63,6 +64,9 @@ struct LensOptions {
     std::string lens, config, f_number, stop_semi_diameter, sensor, coating;
 };
 CLI::Option* add_lens(CLI::App& command, LensOptions& options);
+
+/// What to type for a bundled lens; its full name works too.
+std::string short_name(const BundledLens& lens);
 
 /// The lens to work on: read, in its configuration, with the overrides applied.
 struct LoadedLens {

@@ -51,17 +51,28 @@ void write_standard_error(std::string_view line) {
     write_all(STDERR_FILENO, text);
 }
 
-std::string read_standard_input() {
+std::string read_input(const std::string& file) {
+    const bool standard = file == "-";
+    const int stream = standard ? STDIN_FILENO : ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
     std::string text;
     char buffer[1 << 16];
-    for (;;) {
-        const ssize_t count = ::read(STDIN_FILENO, buffer, sizeof buffer);
-        if (count == 0) return text;
+    int error = stream < 0 ? errno : 0;
+    while (error == 0) {
+        const ssize_t count = ::read(stream, buffer, sizeof buffer);
+        if (count == 0) break;
         if (count > 0)
             text.append(buffer, static_cast<std::size_t>(count));
         else if (errno != EINTR)
-            throw Error("cannot read standard input: " + std::generic_category().message(errno));
+            error = errno;
     }
+    if (!standard && stream >= 0) ::close(stream);
+    if (error != 0)
+        throw Error({.problem = "cannot be read: " + std::generic_category().message(error),
+                     .file = standard ? "standard input" : file,
+                     .where = {},
+                     .found = {},
+                     .expected = {}});
+    return text;
 }
 
 ProgressLine::ProgressLine(std::string label)

@@ -17,8 +17,8 @@ void write_standard_output(std::string_view text);
 /// One line, whatever is in the text.
 void write_standard_error(std::string_view line);
 
-/// All of standard input. Throws Error.
-std::string read_standard_input();
+/// All of a file, or of standard input for "-". Throws Error.
+std::string read_input(const std::string& file);
 
 /// A line "label  42 %" on standard error that is rewritten as the work goes on, if that is a
 /// terminal and the work takes long enough to care.

@@ -2,11 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <fstream>
-#include <iterator>
+#include <algorithm>
 #include <memory>
-#include <system_error>
 
 #include "app/cli/commands.h"
 #include "app/cli/output.h"
@@ -23,26 +20,6 @@ struct TraceOptions {
     std::string ghost, wavelength = "587.5618", rays;
     OutputOptions output;
 };
-
-std::string read_text_file(const std::string& file) {
-    errno = 0;
-    std::ifstream stream(file, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(stream), {}};
-    // A folder opens, and fails only when it is read.
-    if (!stream.is_open() || stream.bad() || (text.empty() && errno != 0))
-        throw Error({.problem = "cannot read the rays: " +
-                                std::generic_category().message(errno != 0 ? errno : EIO),
-                     .file = file,
-                     .where = {},
-                     .found = {},
-                     .expected = {}});
-    return text;
-}
-
-std::vector<glm::dvec2> read_rays(const std::string& file) {
-    return file == "-" ? rays_from_csv(read_standard_input(), "standard input")
-                       : rays_from_csv(read_text_file(file), file);
-}
 
 std::vector<Cell> row_of(const TracedRay& ray, const glm::dvec2& entrance) {
     std::vector<Cell> row = {entrance.x, entrance.y, to_string(ray.status)};
@@ -61,7 +38,8 @@ void run(const TraceOptions& options) {
     const OpticalSystem system = compile(loaded.lens, wavelength_nm);
     const GhostPath path =
         read_option("--ghost", [&] { return parse_ghost(options.ghost, system); });
-    const std::vector<glm::dvec2> rays = read_rays(options.rays);
+    const std::vector<glm::dvec2> rays = rays_from_csv(
+        read_input(options.rays), options.rays == "-" ? "standard input" : options.rays);
 
     Report report;
     report.lens = lens_fields(loaded);
@@ -101,8 +79,8 @@ void add_trace(CLI::App& program) {
     add_text(*command, "--wavelength", options->wavelength, "NM", "wavelength, nm")
         ->capture_default_str();
     add_text(*command, "--rays", options->rays, "FILE|-",
-             "CSV with the header px_mm,py_mm: where each ray crosses the plane z = 0 of the first "
-             "vertex; - is standard input")
+             "CSV with the header px_mm,py_mm: where each ray crosses the plane z = 0\n"
+             "of the first vertex; - is standard input")
         ->required();
     add_output(*command, options->output);
     command->footer(R"(Examples:

@@ -9,7 +9,7 @@ Cell surface_number(const GhostPath& path, std::size_t reflection) {
     return static_cast<std::int64_t>(path.reflections[reflection] + 1);
 }
 
-std::vector<Cell> cells(const GhostRow& row) {
+std::vector<Cell> cells(const GhostRow& row, bool has_image) {
     // The direct path reflects nowhere, so these do not exist there.
     const bool direct = row.path.is_direct();
     return {name(row.path),
@@ -17,7 +17,7 @@ std::vector<Cell> cells(const GhostRow& row) {
             surface_number(row.path, 1),
             row.flux_mm2,
             row.flux_error_mm2,
-            row.relative_flux,
+            has_image ? Cell(row.relative_flux) : Cell(),
             row.peak_per_e0,
             row.centroid_x_mm,
             row.centroid_y_mm,
@@ -36,8 +36,10 @@ Table ghost_rows(const GhostTable& table) {
                     "flux_error_mm2", "relative_flux", "peak_per_e0", "centroid_x_mm",
                     "centroid_y_mm",  "rms_radius_mm", "on_sensor",   "reflectance_1",
                     "reflectance_2",  "rays"};
-    rows.rows.push_back(cells(table.direct));
-    for (const GhostRow& ghost : table.ghosts) rows.rows.push_back(cells(ghost));
+    // Outside the lens's field there is no image to relate a ghost to.
+    const bool has_image = table.direct.flux_mm2 > 0.0;
+    rows.rows.push_back(cells(table.direct, has_image));
+    for (const GhostRow& ghost : table.ghosts) rows.rows.push_back(cells(ghost, has_image));
     return rows;
 }
 

@@ -142,7 +142,7 @@ TEST(CommandLineColumns, DirectPathIsTheFirstRowAndHasNoReflections) {
 
 TEST(CommandLineColumns, AnAfocalSystemHasNoFocalLength) {
     // A plane plate: everything is infinite, and says so in each form.
-    const std::string plate = R"({"name": "plate", "stop_index": 0, "surfaces": [
+    const std::string plate = R"({"name": "plate", "units": "mm", "stop_index": 0, "surfaces": [
         {"radius": null, "thickness": 5, "nd": 1, "vd": null, "semi_diameter": 10, "stop": true},
         {"radius": null, "thickness": 5, "nd": 1.5, "vd": 60, "semi_diameter": 10},
         {"radius": null, "thickness": 50, "nd": 1, "vd": null, "semi_diameter": 10}]})";
