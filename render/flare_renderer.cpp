@@ -33,17 +33,36 @@ void require_size(const std::vector<float>& data, const FlareImage& image, std::
 
 }  // namespace
 
+HighlightScale highlight_scale(const std::vector<float>& highlight) {
+    HighlightScale scale{1e-30F, 1.0F};
+    if (highlight.empty()) {
+        return scale;
+    }
+    scale.floor = std::max(highlight_floor_share * *std::ranges::max_element(highlight), 1e-30F);
+    double sum = 0.0;
+    std::size_t lit = 0;
+    for (const float own : highlight) {
+        if (own > scale.floor) {
+            sum += static_cast<double>(own);
+            ++lit;
+        }
+    }
+    scale.mean = lit > 0 ? static_cast<float>(sum / static_cast<double>(lit)) : 1.0F;
+    return scale;
+}
+
 double PictureUpload::upload(const FlareImage& image) {
     const auto begin = std::chrono::steady_clock::now();
     require_size(image.rgb, image, 3, "rgb");
     color_.upload(image.width_px, image.height_px, 3, image.rgb.data());
-    texture_ = {color_.name(), 0, image.width_px, image.height_px, 0.0F};
+    texture_ = {color_.name(), 0, image.width_px, image.height_px, 0.0F, 1.0F};
     if (!image.highlight.empty()) {
         require_size(image.highlight, image, 1, "highlight");
         highlight_.upload(image.width_px, image.height_px, 1, image.highlight.data());
         texture_.highlight = highlight_.name();
-        texture_.highlight_floor = std::max(
-            highlight_floor_share * *std::ranges::max_element(image.highlight), 1e-30F);
+        const HighlightScale scale = highlight_scale(image.highlight);
+        texture_.highlight_floor = scale.floor;
+        texture_.highlight_mean = scale.mean;
     }
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
     return took.count();
@@ -108,6 +127,7 @@ void FlareRenderer::draw(const PictureTexture& picture, const PictureFrame& fram
                 clip_y(frame.top_px));
     glUniform1f(uniform("scale"), static_cast<float>(std::exp2(look.exposure_ev)));
     glUniform1f(uniform("highlight_floor"), picture.highlight_floor);
+    glUniform1f(uniform("highlight_mean"), picture.highlight_mean);
     glUniform3f(uniform("highlight_color"), look.highlight[0], look.highlight[1],
                 look.highlight[2]);
     glUniform2f(uniform("outline_step"), static_cast<float>(1.0 / frame.width_px),

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "core/flare/flare_image.h"
 #include "render/gl_objects.h"
@@ -16,7 +17,18 @@ struct PictureTexture {
     unsigned highlight = 0;  ///< 0 = none
     int width_px = 0, height_px = 0;
     float highlight_floor = 0.0F;  ///< below this there is no highlighted ghost
+    float highlight_mean = 1.0F;   ///< of the places above
 };
+
+/// The floor and the mean of a highlight, as PictureTexture has them.
+struct HighlightScale {
+    float floor = 0.0F, mean = 1.0F;
+};
+HighlightScale highlight_scale(const std::vector<float>& highlight);
+/// How strongly the highlight's colour covers a place, 0 to 1; the shader has the same.
+inline float highlight_tint(float own, const HighlightScale& scale) {
+    return own > scale.floor ? 0.12F + 0.45F * own / (own + scale.mean) : 0.0F;
+}
 
 /// Uploads pictures made in memory.
 class PictureUpload {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/flare/tone_map.h"
+#include "render/flare_renderer.h"
 
 namespace ghostlight {
 
@@ -13,7 +14,7 @@ QImage software_picture(const FlareImage& image, const PictureFrame& frame, QSiz
     QImage picture(size_px, QImage::Format_RGB32);
     picture.fill(surround);
     const std::array<float, 3> tint{highlight.redF(), highlight.greenF(), highlight.blueF()};
-    const float luminance = 0.2126F * tint[0] + 0.7152F * tint[1] + 0.0722F * tint[2];
+    const HighlightScale scale = highlight_scale(image.highlight);
     for (int y = 0; y < size_px.height(); ++y) {
         auto* line = reinterpret_cast<QRgb*>(picture.scanLine(y));
         for (int x = 0; x < size_px.width(); ++x) {
@@ -30,14 +31,14 @@ QImage software_picture(const FlareImage& image, const PictureFrame& frame, QSiz
                 image.height_px - 1);
             const auto at = static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width_px) +
                             static_cast<std::size_t>(column);
-            std::array<float, 3> rgb{image.rgb[3 * at], image.rgb[3 * at + 1], image.rgb[3 * at + 2]};
+            const std::array<float, 3> rgb{image.rgb[3 * at], image.rgb[3 * at + 1], image.rgb[3 * at + 2]};
+            std::array<float, 3> shown = tone_mapped(rgb, exposure_ev);
             if (!image.highlight.empty()) {
+                const float cover = highlight_tint(image.highlight[at], scale);
                 for (std::size_t c = 0; c < 3; ++c) {
-                    const float own = image.highlight[at];
-                    rgb[c] = std::max(0.0F, rgb[c] + 0.85F * own * (tint[c] / luminance - 1.0F));
+                    shown[c] = std::lerp(shown[c], tint[c], cover);
                 }
             }
-            const std::array<float, 3> shown = tone_mapped(rgb, exposure_ev);
             const auto byte = [](float value) { return static_cast<int>(std::lround(255.0F * value)); };
             line[x] = qRgb(byte(shown[0]), byte(shown[1]), byte(shown[2]));
         }

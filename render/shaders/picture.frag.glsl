@@ -17,6 +17,7 @@ vec4 fetched(sampler2D map, vec2 at) {
 #ifdef HIGHLIGHT
 uniform sampler2D highlight_map;
 uniform float highlight_floor;  // below this there is no highlighted ghost
+uniform float highlight_mean;   // of the places above
 uniform vec3 highlight_color;   // sRGB
 uniform vec2 outline_step;      // one screen pixel, in texture coordinates
 
@@ -35,12 +36,10 @@ float outline(float own) {
 void main() {
     vec3 linear = fetched(color_map, sensor).rgb;
 #ifdef HIGHLIGHT
-    // The highlighted ghosts' own light, in the highlight's colour instead of its own.
+    // By the ghosts' own scale, so that a faint one can be found among brighter ones.
     float own = fetched(highlight_map, sensor).r;
-    vec3 tint = highlight_color / dot(highlight_color, vec3(0.2126, 0.7152, 0.0722));
-    vec3 tinted = max(linear + 0.85 * own * (tint - 1.0), 0.0);
-    float inside = own > highlight_floor ? 0.10 : 0.0;
-    vec3 mapped = mix(tone_mapped(tinted, scale), highlight_color, max(inside, 0.9 * outline(own)));
+    float tint = own > highlight_floor ? 0.12 + 0.45 * own / (own + highlight_mean) : 0.0;
+    vec3 mapped = mix(tone_mapped(linear, scale), highlight_color, max(tint, 0.9 * outline(own)));
 #else
     vec3 mapped = tone_mapped(linear, scale);
 #endif
