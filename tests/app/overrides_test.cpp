@@ -128,7 +128,8 @@ TEST(CommandLineOverrides, TopKeepsTheStrongest) {
 }
 
 TEST(CommandLineOverrides, SpectrumOfOneLineIsThatLine) {
-    const Arguments ghosts = {"ghosts", tessar(), "--field", "0", "--top", "2"};
+    const Arguments ghosts = {"ghosts", tessar(), "--field",     "0",
+                              "--top",  "2",      "--tolerance", "0.5"};
     Arguments line = ghosts, named = ghosts, wide = ghosts;
     line.insert(line.end(), {"--wavelength", "486.1327"});
     named.insert(named.end(), {"--spectrum", "486.1327 nm"});
