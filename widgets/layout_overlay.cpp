@@ -1,7 +1,6 @@
 #include "widgets/layout_overlay.h"
 
 #include <QFont>
-#include <QFontMetricsF>
 #include <QObject>
 #include <QPainter>
 #include <QPolygonF>
@@ -38,13 +37,11 @@ void paint_hovered(QPainter& painter, const LensDrawing& drawing, const PlaneVie
     painter.drawPolyline(line);
 }
 
+/// Behind the sensor, where no ray goes.
 void paint_sensor_label(QPainter& painter, const LensDrawing& drawing, const PlaneView& plane) {
-    const QString text = QObject::tr("sensor");
-    const QFontMetricsF metrics(painter.font());
     const QPointF end = plane.to_view({drawing.sensor.z_mm, -drawing.sensor.half_length_mm});
-    const double x = end.x() - label_gap_px - metrics.horizontalAdvance(text);
     painter.setPen(current_palette().dim);
-    painter.drawText(QPointF(x, end.y()), text);
+    painter.drawText(QPointF(end.x() + label_gap_px, end.y()), QObject::tr("sensor"));
 }
 
 struct PlacedMark {

@@ -152,6 +152,19 @@ SensorLine sensor_line(const Prescription& lens, const OpticalSystem* system,
     return sensor;
 }
 
+/// Largest of the two glass surfaces on either side of a row.
+double tallest_beside(const Prescription& lens, std::size_t row) {
+    const std::size_t first = row > 2 ? row - 2 : 0;
+    const std::size_t last = std::min(row + 2, lens.surfaces.size() - 1);
+    double tallest = 0.0;
+    for (std::size_t i = first; i <= last; ++i) {
+        if (is_drawable(lens.surfaces[i])) {
+            tallest = std::max(tallest, lens.surfaces[i].semi_diameter_mm);
+        }
+    }
+    return tallest;
+}
+
 }  // namespace
 
 double sag_mm(const Surface& surface, double y_mm) {
@@ -214,7 +227,8 @@ LensDrawing lens_drawing(const Prescription& lens, const OpticalSystem* system,
         drawing.stop.opening_mm =
             system != nullptr ? system->stop_mask.semi_diameter_mm
                               : std::min(listed, lens.stop.semi_diameter_mm.value_or(listed));
-        drawing.stop.outer_mm = std::max(1.08 * tallest, 1.25 * listed);
+        drawing.stop.outer_mm =
+            std::max(1.25 * listed, 1.15 * tallest_beside(lens, lens.stop.surface));
     }
 
     const double length = std::max(drawing.sensor.z_mm, 1.0);

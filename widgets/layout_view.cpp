@@ -20,7 +20,7 @@ namespace ghostlight {
 
 namespace {
 
-constexpr double margin_px = 28.0;
+const QMarginsF margins_px(24.0, 20.0, 56.0, 20.0);  // on the right, room for the sensor's label
 constexpr double hover_reach_px = 6.0;
 constexpr double zoom_per_notch = 1.2;
 constexpr double degrees_per_notch = 120.0;  // in eighths of a degree, as Qt counts
@@ -55,7 +55,7 @@ void LayoutView::show_drawing(LensDrawing drawing, std::vector<RayFan> fans) {
         hover(0);
     }
     if (fitted_) {
-        plane_.fit(drawing_.box, margin_px);
+        plane_.fit(drawing_.box, margins_px);
     }
     rebuild();
 }
@@ -71,7 +71,7 @@ void LayoutView::show_nothing(const QString& text) {
 
 void LayoutView::fit() {
     fitted_ = true;
-    plane_.fit(drawing_.box, margin_px);
+    plane_.fit(drawing_.box, margins_px);
     refresh();
 }
 
@@ -156,7 +156,7 @@ void LayoutView::resizeEvent(QResizeEvent* event) {
     VtkView::resizeEvent(event);
     plane_.set_size(size());
     if (fitted_) {
-        plane_.fit(drawing_.box, margin_px);
+        plane_.fit(drawing_.box, margins_px);
     }
 }
 

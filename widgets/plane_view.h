@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QMarginsF>
 #include <QPointF>
 #include <QSizeF>
 
@@ -19,8 +20,8 @@ class PlaneView {
     QPointF to_view(DrawingPoint point) const;
     DrawingPoint to_drawing(QPointF position) const;
 
-    /// The whole box, with room on each side.
-    void fit(const DrawingBox& box, double margin_px);
+    /// The whole box, with room around it.
+    void fit(const DrawingBox& box, QMarginsF margins_px);
     /// Moves the drawing with the cursor.
     void pan(QPointF delta_px);
     /// Enlarges by a factor; the point under the cursor stays there.

@@ -18,6 +18,7 @@ constexpr double meridional_azimuth_deg = 90.0;
 struct Beam {
     BeamFrame frame;
     double low_mm = 0.0, high_mm = 0.0;  ///< what can meet the first surface within its rim
+    double before_mm = 0.0;              ///< how far before z = 0 on the axis that surface reaches
 
     Ray ray(double v_mm) const { return {v_mm * frame.e2, frame.direction}; }
 };
@@ -33,7 +34,9 @@ Beam meridional_beam(const OpticalSystem& system, double field_deg) {
     constexpr int points = 32;
     for (int i = 0; i <= points; ++i) {
         const double y = first.semi_diameter_mm * (2.0 * i / points - 1.0);
-        const double v = glm::dot(beam.frame.e2, glm::dvec3(0.0, y, sag_mm(curve, y)));
+        const glm::dvec3 point(0.0, y, sag_mm(curve, y));
+        const double v = glm::dot(beam.frame.e2, point);
+        beam.before_mm = std::max(beam.before_mm, -glm::dot(beam.frame.direction, point));
         beam.low_mm = i == 0 ? v : std::min(beam.low_mm, v);
         beam.high_mm = i == 0 ? v : std::max(beam.high_mm, v);
     }
@@ -120,7 +123,7 @@ RayLeg leg_after(const GhostPath& path, std::size_t reflections) {
 }
 
 DrawingPoint start(const Beam& beam, double v_mm, double lead_in_mm) {
-    return drawn(v_mm * beam.frame.e2 - lead_in_mm * beam.frame.direction);
+    return drawn(v_mm * beam.frame.e2 - (lead_in_mm + beam.before_mm) * beam.frame.direction);
 }
 
 void add_surviving(RayFan& fan, const TracedRay& traced, DrawingPoint from) {
