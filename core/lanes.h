@@ -11,6 +11,9 @@
 #define GHOSTLIGHT_ISA portable
 #endif
 
+// Kernels are made of these small functions; the compiler's own limits stop inlining half-way.
+#define GHOSTLIGHT_INLINE [[gnu::always_inline]] inline
+
 namespace ghostlight {
 inline namespace GHOSTLIGHT_ISA {
 
@@ -35,35 +38,35 @@ template <class V>
 inline constexpr bool is_single_precision = std::is_same_v<Lane<V>, float>;
 
 template <class V>
-V select(bool condition, const V& yes, const V& no) {
+GHOSTLIGHT_INLINE V select(bool condition, const V& yes, const V& no) {
     return condition ? yes : no;
 }
 template <class T, class A>
-stdx::simd<T, A> select(const stdx::simd_mask<T, A>& condition, const stdx::simd<T, A>& yes,
+GHOSTLIGHT_INLINE stdx::simd<T, A> select(const stdx::simd_mask<T, A>& condition, const stdx::simd<T, A>& yes,
                         const stdx::simd<T, A>& no) {
     stdx::simd<T, A> result = no;
     stdx::where(condition, result) = yes;
     return result;
 }
 
-inline bool any(bool condition) { return condition; }
+GHOSTLIGHT_INLINE bool any(bool condition) { return condition; }
 template <class T, class A>
-bool any(const stdx::simd_mask<T, A>& condition) {
+GHOSTLIGHT_INLINE bool any(const stdx::simd_mask<T, A>& condition) {
     return stdx::any_of(condition);
 }
 
 template <class V>
-V smaller(const V& a, const V& b) {
+GHOSTLIGHT_INLINE V smaller(const V& a, const V& b) {
     return select(b < a, b, a);
 }
 template <class V>
-V larger(const V& a, const V& b) {
+GHOSTLIGHT_INLINE V larger(const V& a, const V& b) {
     return select(a < b, b, a);
 }
 
 /// Square root that is 0 for negative arguments.
 template <class V>
-V sqrt_or_zero(const V& x) {
+GHOSTLIGHT_INLINE V sqrt_or_zero(const V& x) {
     using std::sqrt;
     return sqrt(larger(x, V(Lane<V>(0))));
 }

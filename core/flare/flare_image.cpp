@@ -80,15 +80,15 @@ double polarised_gain(const OpticalSystem& system, const GhostPath& ghost, const
                                        probe_cells, split_cells, Weights::polarised);
     auto flux = [&] {
         double sum = 0.0;
-        for_each_piece(grid, 1, [&](const BundleGrid<float>&, int, const Piece& piece) {
+        for_each_piece(grid, [&](const BundleGrid<float>&, const Piece& piece) {
             sum += flux_mm2(piece);
         });
         return sum;
     };
     const double polarised = flux();
-    std::swap(grid.base.rays.weight, grid.base.rays.weight_average);
+    std::swap(grid.base.field.rays.weight, grid.base.field.rays.weight_average);
     for (BundleGrid<float>& split : grid.splits)
-        std::swap(split.rays.weight, split.rays.weight_average);
+        std::swap(split.field.rays.weight, split.field.rays.weight_average);
     const double average = flux();
     return average > 0.0 ? polarised / average : 1.0;
 }
@@ -129,7 +129,7 @@ std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequ
     const auto traced = Clock::now();
     std::vector<BandedMesh> meshes(tasks);
     finished = parallel_for(tasks, request.threads, stop, [&](std::size_t t) {
-        if (pupils[t].empty) return;
+        if (pupils[t].empty()) return;
         const OpticalSystem& system = systems[t % samples.size()];
         const GhostPath& ghost = ghosts[t / samples.size()];
         const double gain = polarised_gain(system, ghost, frame, pupils[t].box);

@@ -23,14 +23,14 @@ template <class T>
 class MeshBuilder {
    public:
     MeshBuilder(const SplitGrid<T>& all, const PixelFrame& frame, double gain)
-        : all_(all), grid_(all.base), frame_(frame), gain_(gain) {}
+        : all_(all), grid_(all.base), rays_(all.base.field.rays), frame_(frame), gain_(gain) {}
 
     GhostMesh build() {
         place_nodes();
         average_irradiance();
         const int triangles = 2 * grid_.cells * grid_.cells;
         values_.assign(static_cast<std::size_t>(triangles), {});
-        for_each_piece(all_, 1, [&](const BundleGrid<T>& on, int, const Piece& piece) {
+        for_each_piece(all_, [&](const BundleGrid<T>& on, const Piece& piece) {
             add(piece, &on == &grid_);
         });
         add_shared_edges();
@@ -40,6 +40,7 @@ class MeshBuilder {
    private:
     const SplitGrid<T>& all_;
     const BundleGrid<T>& grid_;
+    const Bundle<T>& rays_;
     const PixelFrame& frame_;
     double gain_;
     GhostMesh mesh_;
@@ -48,26 +49,25 @@ class MeshBuilder {
     std::vector<LinearValue> values_;  ///< per whole triangle, signed for a clockwise drawing
 
     void place_nodes() {
-        nodes_.reserve(grid_.rays.size());
-        for (std::size_t i = 0; i < grid_.rays.size(); ++i)
-            nodes_.push_back({frame_.column(static_cast<double>(grid_.rays.x_mm[i])),
-                              frame_.row(static_cast<double>(grid_.rays.y_mm[i]))});
+        nodes_.reserve(rays_.size());
+        for (std::size_t i = 0; i < rays_.size(); ++i)
+            nodes_.push_back({frame_.column(static_cast<double>(rays_.x_mm[i])),
+                              frame_.row(static_cast<double>(rays_.y_mm[i]))});
     }
 
     /// Entrance area over sensor area, both summed over the triangles about a node.
     void average_irradiance() {
-        const auto& rays = grid_.rays;
-        std::vector<double> area_out(rays.size(), 0.0);
-        std::vector<int> count(rays.size(), 0);
+        std::vector<double> area_out(rays_.size(), 0.0);
+        std::vector<int> count(rays_.size(), 0);
         const int side = grid_.cells + 1;
-        const double du = static_cast<double>(rays.u_mm[1]) - static_cast<double>(rays.u_mm[0]);
-        const double dv = static_cast<double>(rays.v_mm[static_cast<std::size_t>(side)]) -
-                          static_cast<double>(rays.v_mm[0]);
+        const double du = static_cast<double>(rays_.u_mm[1]) - static_cast<double>(rays_.u_mm[0]);
+        const double dv = static_cast<double>(rays_.v_mm[static_cast<std::size_t>(side)]) -
+                          static_cast<double>(rays_.v_mm[0]);
         const double area_in = 0.5 * std::abs(du * dv);
         for (int t = 0; t < 2 * grid_.cells * grid_.cells; ++t) {
-            const TriangleNodes n = triangle_nodes(grid_.cells, 1, t);
+            const TriangleNodes n = triangle_nodes(grid_.cells, t);
             bool valid = true;
-            for (const int node : n.node) valid = valid && rays.margin[idx(node)] >= T(0);
+            for (const int node : n.node) valid = valid && rays_.margin[idx(node)] >= T(0);
             if (!valid) continue;
             const double area =
                 std::abs(signed_area(nodes_[idx(n.node[0])], nodes_[idx(n.node[1])],
@@ -78,11 +78,11 @@ class MeshBuilder {
                 ++count[idx(node)];
             }
         }
-        irradiance_.assign(rays.size(), 0.0);
-        for (std::size_t i = 0; i < rays.size(); ++i)
+        irradiance_.assign(rays_.size(), 0.0);
+        for (std::size_t i = 0; i < rays_.size(); ++i)
             if (area_out[i] > 0.0)
                 irradiance_[i] =
-                    gain_ * static_cast<double>(rays.weight[i]) * area_in * count[i] / area_out[i];
+                    gain_ * static_cast<double>(rays_.weight[i]) * area_in * count[i] / area_out[i];
     }
 
     static std::size_t idx(int i) { return static_cast<std::size_t>(i); }
@@ -142,9 +142,9 @@ class MeshBuilder {
                              double flux_px) const {
         const LinearValue constant{flux_px / size, 0.0, 0.0};
         if (size < least_sloped_px2) return constant;
-        const TriangleNodes n = triangle_nodes(grid_.cells, 1, piece.triangle);
+        const TriangleNodes n = triangle_nodes(grid_.cells, piece.triangle);
         for (const int node : n.node)
-            if (grid_.rays.margin[idx(node)] < T(0)) return constant;
+            if (rays_.margin[idx(node)] < T(0)) return constant;
         const LinearValue value = plane(n);
         double integral = 0.0;
         for (int k = 1; k + 1 < piece.count; ++k) {

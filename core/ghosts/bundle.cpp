@@ -45,7 +45,8 @@ void trace_bundle(const TracePath<T>& path, const BeamFrame& frame, Weights weig
     pad(bundle.v_mm);
     bundle.stop_crossings = path.stop_crossings;
     for (auto* channel : {&bundle.x_mm, &bundle.y_mm, &bundle.weight, &bundle.weight_average, &bundle.margin,
-                          &bundle.r_rel, &bundle.reflectance[0], &bundle.reflectance[1]})
+                          &bundle.r_rel, &bundle.reflectance[0], &bundle.reflectance[1],
+                          &bundle.onset[0], &bundle.onset[1]})
         channel->resize(padded);
     T* stop_u[max_stop_crossings] = {};
     T* stop_v[max_stop_crossings] = {};
@@ -79,11 +80,13 @@ void trace_bundle(const TracePath<T>& path, const BeamFrame& frame, Weights weig
     view.stop_v = stop_v;
     view.reflectance[0] = bundle.reflectance[0].data();
     view.reflectance[1] = bundle.reflectance[1].data();
+    view.onset[0] = bundle.onset[0].data();
+    view.onset[1] = bundle.onset[1].data();
     view.weights = static_cast<int>(weights);
     run(view);
     for (auto* channel : {&bundle.u_mm, &bundle.v_mm, &bundle.x_mm, &bundle.y_mm, &bundle.weight,
                           &bundle.margin, &bundle.r_rel, &bundle.reflectance[0],
-                          &bundle.reflectance[1]})
+                          &bundle.reflectance[1], &bundle.onset[0], &bundle.onset[1]})
         channel->resize(count);
 }
 

@@ -32,6 +32,8 @@ struct Bundle {
     std::vector<T> r_rel;   ///< largest r over the clear radius, all crossings but the stop's
     std::array<std::vector<T>, max_stop_crossings> stop_u_mm, stop_v_mm;
     std::array<std::vector<T>, 2> reflectance;  ///< mean R at the first two reflections
+    /// There, how far from the onset of total reflection: cos² of refraction, negative beyond.
+    std::array<std::vector<T>, 2> onset;
     int stop_crossings = 0;
 
     std::size_t size() const { return u_mm.size(); }

@@ -54,18 +54,23 @@ void trace_at(const BundleView<T>& b, std::size_t i) {
             r2_rel = larger(r2_rel, V(r2 * (step.inverse_clear * step.inverse_clear)));
         }
         const Vec3<V> before = ray.direction;
-        margin = smaller(margin, turn(step, meeting, ray));
+        const V cos2_squared = turn(step, meeting, ray);
+        if (!step.reflects)
+            margin = smaller(margin, cos2_squared);
+        else if (reflection < 2)
+            store(cos2_squared, b.onset[reflection] + i);
         if constexpr (mode != no_weights) {
             if (!step.invisible) {
                 const Amplitudes<V> film = amplitudes(step, b.layers, meeting.cos_incidence);
                 const V mean = T(0.5) * (step.reflects ? norm(film.r_s) + norm(film.r_p)
                                                        : norm(film.t_s) + norm(film.t_p));
-                if (step.reflects && reflection < 2) store(mean, b.reflectance[reflection++] + i);
+                if (step.reflects && reflection < 2) store(mean, b.reflectance[reflection] + i);
                 average = average * mean;
                 if constexpr (mode == polarised_weights)
                     apply(film, step.reflects, meeting, before, jones);
             }
         }
+        if (step.reflects) ++reflection;
     }
     margin = smaller(margin, ray.direction.z);
     ray.position.z = ray.position.z + b.sensor_gap_mm;

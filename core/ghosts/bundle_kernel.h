@@ -20,7 +20,7 @@ struct BundleView {
     T *x, *y, *weight, *weight_average, *margin, *r_rel;
     T* const* stop_u;
     T* const* stop_v;
-    T* reflectance[2];
+    T *reflectance[2], *onset[2];
     int weights;  ///< Weights, as a number
 };
 

@@ -5,33 +5,41 @@
 
 namespace ghostlight {
 
+template <class T>
+RayField<T> trace_field(const OpticalSystem& system, const TracePath<T>& path,
+                        const BeamFrame& frame, Bundle<T> rays, Weights weights) {
+    RayField<T> field;
+    field.rays = std::move(rays);
+    trace_bundle(path, frame, weights, field.rays);
+    const std::size_t count = field.rays.size();
+    field.clearances.push_back(field.rays.margin);
+    std::vector<T>& clear = field.clearances.emplace_back(count);
+    for (std::size_t i = 0; i < count; ++i) clear[i] = T(1) - field.rays.r_rel[i];
+    for (std::size_t k = 0; k < static_cast<std::size_t>(field.rays.stop_crossings); ++k) {
+        std::vector<T>& open = field.clearances.emplace_back(count);
+        const auto& u = field.rays.stop_u_mm[k];
+        const auto& v = field.rays.stop_v_mm[k];
+        for (std::size_t i = 0; i < count; ++i)
+            open[i] = static_cast<T>(stop_margin(system.stop_mask, u[i], v[i]));
+    }
+    return field;
+}
+
 namespace {
 
 template <class T>
 BundleGrid<T> trace_cells(const OpticalSystem& system, const TracePath<T>& path,
                           const BeamFrame& frame, const PupilBox& box, int cells,
                           Weights weights) {
-    BundleGrid<T> grid;
-    grid.cells = cells;
-    lay_grid(box, cells, grid.rays);
-    trace_bundle(path, frame, weights, grid.rays);
-    const std::size_t count = grid.rays.size();
-    grid.clearances.push_back(grid.rays.margin);
-    std::vector<T>& clear = grid.clearances.emplace_back(count);
-    for (std::size_t i = 0; i < count; ++i) clear[i] = T(1) - grid.rays.r_rel[i];
-    for (std::size_t k = 0; k < static_cast<std::size_t>(grid.rays.stop_crossings); ++k) {
-        std::vector<T>& open = grid.clearances.emplace_back(count);
-        const auto& u = grid.rays.stop_u_mm[k];
-        const auto& v = grid.rays.stop_v_mm[k];
-        for (std::size_t i = 0; i < count; ++i)
-            open[i] = static_cast<T>(stop_margin(system.stop_mask, u[i], v[i]));
-    }
-    return grid;
+    Bundle<T> rays;
+    lay_grid(box, cells, rays);
+    return {trace_field(system, path, frame, std::move(rays), weights), cells};
 }
 
-/// Within a cell of where rays begin to fail, unless something else stops them all.
+/// Within a cell of where rays begin to fail, or of where a reflection becomes total, unless
+/// something else stops them all.
 template <class T>
-bool is_singular(const BundleGrid<T>& grid, int cell) {
+bool is_singular(const BundleGrid<T>& grid, int reflections, int cell) {
     const int side = grid.cells + 1;
     const int a = cell / grid.cells * side + cell % grid.cells;
     const int corners[4] = {a, a + 1, a + side, a + side + 1};
@@ -43,10 +51,16 @@ bool is_singular(const BundleGrid<T>& grid, int cell) {
         }
         return std::pair{low, high};
     };
-    const auto [low, high] = range(grid.clearances[0]);
-    if (high < T(0) || low > high - low) return false;
-    for (std::size_t k = 1; k < grid.clearances.size(); ++k) {
-        const auto [least, most] = range(grid.clearances[k]);
+    const auto [low, high] = range(grid.field.clearances[0]);
+    if (high < T(0)) return false;
+    bool singular = low <= high - low;
+    for (int k = 0; k < reflections && !singular; ++k) {
+        const auto [least, most] = range(grid.field.rays.onset[static_cast<std::size_t>(k)]);
+        singular = least <= most - least && most >= least - most;
+    }
+    if (!singular) return false;
+    for (std::size_t k = 1; k < grid.field.clearances.size(); ++k) {
+        const auto [least, most] = range(grid.field.clearances[k]);
         if (most + T(0.5) * (most - least) < T(0)) return false;
     }
     return true;
@@ -60,9 +74,12 @@ SplitGrid<T> trace_grid(const OpticalSystem& system, const TracePath<T>& path,
                         Weights weights) {
     SplitGrid<T> grid;
     grid.base = trace_cells(system, path, frame, box, cells, weights);
+    int reflections = 0;
+    for (const TraceStep<T>& step : path.steps) reflections += step.reflects ? 1 : 0;
+    reflections = std::min(reflections, 2);
     grid.split_of_cell.assign(static_cast<std::size_t>(cells * cells), -1);
     for (int cell = 0; cell < cells * cells; ++cell) {
-        if (!is_singular(grid.base, cell)) continue;
+        if (!is_singular(grid.base, reflections, cell)) continue;
         auto u = [&](int i) { return std::lerp(box.u0_mm, box.u1_mm, static_cast<double>(i) / cells); };
         auto v = [&](int j) { return std::lerp(box.v0_mm, box.v1_mm, static_cast<double>(j) / cells); };
         const int i = cell % cells, j = cell / cells;
@@ -74,21 +91,20 @@ SplitGrid<T> trace_grid(const OpticalSystem& system, const TracePath<T>& path,
 }
 
 template <class T>
-Piece clip_triangle(const BundleGrid<T>& grid, int stride, int triangle) {
+Piece clip_triangle(const RayField<T>& field, const TriangleNodes& nodes, int triangle) {
     // Clearances are interpolated in the triangle's own coordinates: corner k of the polygon is
     // p = Σ share·node.
     struct Corner {
         double share[3];
     };
-    const TriangleNodes nodes = triangle_nodes(grid.cells, stride, triangle);
     Corner corners[Piece::max_corners] = {{{1, 0, 0}}, {{0, 1, 0}}, {{0, 0, 1}}};
     int count = 3;
     Piece piece;
     piece.triangle = triangle;
-    for (const std::vector<T>& clearance : grid.clearances) {
-        const double f[3] = {static_cast<double>(clearance[nodes.node[0]]),
-                             static_cast<double>(clearance[nodes.node[1]]),
-                             static_cast<double>(clearance[nodes.node[2]])};
+    for (const std::vector<T>& clearance : field.clearances) {
+        const double f[3] = {static_cast<double>(clearance[static_cast<std::size_t>(nodes.node[0])]),
+                             static_cast<double>(clearance[static_cast<std::size_t>(nodes.node[1])]),
+                             static_cast<double>(clearance[static_cast<std::size_t>(nodes.node[2])])};
         if (f[0] >= 0.0 && f[1] >= 0.0 && f[2] >= 0.0) continue;
         piece.whole = false;
         if (f[0] < 0.0 && f[1] < 0.0 && f[2] < 0.0) return piece;
@@ -112,7 +128,7 @@ Piece clip_triangle(const BundleGrid<T>& grid, int stride, int triangle) {
         if (count < 3) return piece;
         std::copy_n(kept, count, corners);
     }
-    const Bundle<T>& rays = grid.rays;
+    const Bundle<T>& rays = field.rays;
     // A failed ray's sensor point means nothing: it takes the mean of its valid neighbours'.
     double x[3], y[3], x_mean = 0.0, y_mean = 0.0;
     int valid = 0;
@@ -162,7 +178,11 @@ template SplitGrid<float> trace_grid(const OpticalSystem&, const TracePath<float
                                      const BeamFrame&, const PupilBox&, int, int, Weights);
 template SplitGrid<double> trace_grid(const OpticalSystem&, const TracePath<double>&,
                                       const BeamFrame&, const PupilBox&, int, int, Weights);
-template Piece clip_triangle(const BundleGrid<float>&, int, int);
-template Piece clip_triangle(const BundleGrid<double>&, int, int);
+template RayField<float> trace_field(const OpticalSystem&, const TracePath<float>&,
+                                     const BeamFrame&, Bundle<float>, Weights);
+template RayField<double> trace_field(const OpticalSystem&, const TracePath<double>&,
+                                      const BeamFrame&, Bundle<double>, Weights);
+template Piece clip_triangle(const RayField<float>&, const TriangleNodes&, int);
+template Piece clip_triangle(const RayField<double>&, const TriangleNodes&, int);
 
 }  // namespace ghostlight

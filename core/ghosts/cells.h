@@ -22,38 +22,48 @@ struct Piece {
     bool whole = true;  ///< the triangle unclipped
 };
 
-/// A traced square grid of (cells + 1)² rays and the functions that clip it: each is ≥ 0 where
-/// light passes (validity, 1 − r_rel, and the stop's margin at each crossing).
+/// Traced rays and the functions that clip them: each is ≥ 0 where light passes (validity,
+/// 1 − r_rel, and the stop's margin at each crossing).
 template <class T>
-struct BundleGrid {
+struct RayField {
     Bundle<T> rays;
-    int cells = 0;
     std::vector<std::vector<T>> clearances;
 };
+/// Traces `rays` (u_mm, v_mm given) and works out the clearances.
+template <class T>
+RayField<T> trace_field(const OpticalSystem& system, const TracePath<T>& path,
+                        const BeamFrame& frame, Bundle<T> rays, Weights weights);
 
-/// Corner nodes of a triangle at a stride (every `stride`-th node makes a coarser grid).
 struct TriangleNodes {
     int node[3];
 };
-inline TriangleNodes triangle_nodes(int cells, int stride, int triangle) {
-    const int across = cells / stride;
+
+/// The part of a triangle of rays that passes; count is 0 when nothing does.
+template <class T>
+Piece clip_triangle(const RayField<T>& field, const TriangleNodes& nodes, int triangle = 0);
+
+/// A square grid of (cells + 1)² rays.
+template <class T>
+struct BundleGrid {
+    RayField<T> field;
+    int cells = 0;
+};
+
+/// Corner nodes of a cell's lower and upper half.
+inline TriangleNodes triangle_nodes(int cells, int triangle) {
     const int cell = triangle / 2;
     const int side = cells + 1;
-    const int a = (cell / across) * stride * side + (cell % across) * stride;
-    const int b = a + stride, c = a + stride * side, d = c + stride;
+    const int a = cell / cells * side + cell % cells;
+    const int b = a + 1, c = a + side, d = c + 1;
     // Diagonals mirror about the middle, so that a symmetric bundle has a symmetric grid.
-    if (2 * (cell % across) < across)
+    if (2 * (cell % cells) < cells)
         return triangle % 2 == 0 ? TriangleNodes{{a, b, c}} : TriangleNodes{{d, c, b}};
     return triangle % 2 == 0 ? TriangleNodes{{a, b, d}} : TriangleNodes{{d, c, a}};
 }
 
-/// The part of a triangle that passes; count is 0 when nothing does.
-template <class T>
-Piece clip_triangle(const BundleGrid<T>& grid, int stride, int triangle);
-
-/// A grid whose cells at the edge of a miss or of total reflection are traced again, each on a
-/// grid of its own: the map and the weight have a square-root singularity there, on which
-/// interpolation fails.
+/// A grid whose cells at the edge of a miss or at the onset of total reflection are traced again,
+/// each on a grid of its own: the map and the weight have a square-root singularity there, on
+/// which interpolation fails.
 template <class T>
 struct SplitGrid {
     BundleGrid<T> base;
@@ -61,8 +71,8 @@ struct SplitGrid {
     std::vector<BundleGrid<T>> splits;  ///< one per singular cell
 
     std::size_t rays() const {
-        std::size_t count = base.rays.size();
-        for (const auto& split : splits) count += split.rays.size();
+        std::size_t count = base.field.rays.size();
+        for (const auto& split : splits) count += split.field.rays.size();
         return count;
     }
 };
@@ -73,38 +83,23 @@ SplitGrid<T> trace_grid(const OpticalSystem& system, const TracePath<T>& path,
                         const BeamFrame& frame, const PupilBox& box, int cells, int split_cells,
                         Weights weights);
 
-/// Calls visit(grid, stride, piece) for every piece that passes, on the grid or, with a stride of
-/// 2 or 4, on the coarser grids that it holds.
+/// Calls visit(grid, piece) for every piece that passes.
 template <class T, class Visit>
-void for_each_piece(const SplitGrid<T>& grid, int stride, Visit visit) {
-    auto both_halves = [&](const BundleGrid<T>& on, int step, int cell) {
-        for (int half = 0; half < 2; ++half) {
-            const Piece piece = clip_triangle(on, step, 2 * cell + half);
-            if (piece.count >= 3) visit(on, step, piece);
+void for_each_piece(const SplitGrid<T>& grid, Visit visit) {
+    auto pieces_of = [&](const BundleGrid<T>& on, int cell) {
+        for (int t = 2 * cell; t < 2 * cell + 2; ++t) {
+            const Piece piece = clip_triangle(on.field, triangle_nodes(on.cells, t), t);
+            if (piece.count >= 3) visit(on, piece);
         }
     };
-    const int across = grid.base.cells / stride;
-    for (int cell = 0; cell < across * across; ++cell) {
-        const int i0 = cell % across * stride, j0 = cell / across * stride;
-        auto base_cell = [&](int k) { return (j0 + k / stride) * grid.base.cells + i0 + k % stride; };
-        auto split = [&](int k) {
-            return grid.split_of_cell[static_cast<std::size_t>(base_cell(k))];
-        };
-        bool ordinary = true;
-        for (int k = 0; k < stride * stride; ++k) ordinary = ordinary && split(k) < 0;
-        if (ordinary) {
-            both_halves(grid.base, stride, cell);
+    for (int cell = 0; cell < grid.base.cells * grid.base.cells; ++cell) {
+        const int split = grid.split_of_cell[static_cast<std::size_t>(cell)];
+        if (split < 0) {
+            pieces_of(grid.base, cell);
             continue;
         }
-        for (int k = 0; k < stride * stride; ++k) {
-            if (split(k) < 0) {
-                both_halves(grid.base, 1, base_cell(k));
-                continue;
-            }
-            const BundleGrid<T>& finer = grid.splits[static_cast<std::size_t>(split(k))];
-            const int finer_across = finer.cells / stride;
-            for (int c = 0; c < finer_across * finer_across; ++c) both_halves(finer, stride, c);
-        }
+        const BundleGrid<T>& finer = grid.splits[static_cast<std::size_t>(split)];
+        for (int c = 0; c < finer.cells * finer.cells; ++c) pieces_of(finer, c);
     }
 }
 

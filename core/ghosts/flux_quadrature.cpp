@@ -8,10 +8,10 @@
 namespace ghostlight {
 namespace {
 
-constexpr int coarsest_grid = 16;
-constexpr int finest_grid = 512;
-constexpr int mesh_grid = 32;   ///< at least, for irradiance
-constexpr int split_cells = 8;  ///< across a singular cell
+constexpr std::size_t most_rays = 400'000;  ///< per path and wavelength
+constexpr int deepest_level = 10;           ///< splits below the pupil search's cells
+constexpr int mesh_grid = 64;
+constexpr int split_cells = 4;              ///< across a singular cell of the mesh
 
 /// First and second moments of weight dA over a piece: the edge midpoints' rule on a fan of
 /// triangles, exact for quadratics.
@@ -46,31 +46,78 @@ double flux_on_sensor(const Piece& piece, double half_width_mm, double half_heig
     return part.count < 3 ? 0.0 : flux_mm2(part);
 }
 
-double flux_at_stride(const SplitGrid<double>& grid, int stride) {
-    double flux = 0.0;
-    for_each_piece(grid, stride, [&](const BundleGrid<double>&, int, const Piece& piece) {
-        flux += flux_mm2(piece);
-    });
-    return flux;
+/// The two triangles of a cell, their diagonal mirrored about the pupil's middle column.
+struct Halves {
+    TriangleNodes half[2];
+};
+Halves halves_of(const FluxCell& cell, int across) {
+    const auto& [a, b, c, d] = cell.corner;
+    const bool left = 2.0 * cell.i < std::ldexp(across, cell.level);
+    if (left) return {{{{a, b, c}}, {{d, c, b}}}};
+    return {{{{a, b, d}}, {{d, c, a}}}};
 }
 
-FluxSums sums_of(const SplitGrid<double>& grid, const OpticalSystem& system) {
+template <class Visit>
+void visit_pieces(const PathFlux& flux, const FluxCell& cell, Visit visit) {
+    for (const TriangleNodes& nodes : halves_of(cell, flux.pupil.across).half) {
+        const Piece piece = clip_triangle(flux.field, nodes);
+        if (piece.count >= 3) visit(piece, nodes);
+    }
+}
+
+double flux_of(const PathFlux& flux, const FluxCell& cell) {
+    double sum = 0.0;
+    visit_pieces(flux, cell, [&](const Piece& piece, const TriangleNodes&) { sum += flux_mm2(piece); });
+    return sum;
+}
+
+/// A corner of a cell on the lattice of the deepest level.
+std::uint64_t lattice_key(const FluxCell& cell, int corner) {
+    const int shift = deepest_level - cell.level;
+    const std::uint64_t i = std::uint64_t{cell.i + static_cast<std::uint32_t>(corner & 1)} << shift;
+    const std::uint64_t j = std::uint64_t{cell.j + static_cast<std::uint32_t>(corner >> 1)} << shift;
+    return (j << 32) | i;
+}
+
+FluxSums sums_of(const PathFlux& flux, const OpticalSystem& system) {
     FluxSums sums;
-    for_each_piece(grid, 1, [&](const BundleGrid<double>& on, int stride, const Piece& piece) {
-        const double flux = flux_mm2(piece);
-        sums.flux += flux;
-        sums.on_sensor +=
-            flux_on_sensor(piece, 0.5 * system.sensor_width_mm, 0.5 * system.sensor_height_mm);
-        add_moments(piece, sums);
-        const TriangleNodes nodes = triangle_nodes(on.cells, stride, piece.triangle);
-        for (std::size_t k = 0; k < 2; ++k) {
-            double mean = 0.0;
-            for (const int node : nodes.node)
-                mean += on.rays.reflectance[k][static_cast<std::size_t>(node)] / 3.0;
-            sums.reflectance[k] += flux * mean;
-        }
-    });
+    for (const FluxCell& cell : flux.cells) {
+        if (cell.flux_mm2 == 0.0) continue;
+        visit_pieces(flux, cell, [&](const Piece& piece, const TriangleNodes& nodes) {
+            const double part = flux_mm2(piece);
+            sums.flux += part;
+            sums.on_sensor +=
+                flux_on_sensor(piece, 0.5 * system.sensor_width_mm, 0.5 * system.sensor_height_mm);
+            add_moments(piece, sums);
+            for (std::size_t k = 0; k < 2; ++k) {
+                double mean = 0.0;
+                for (const int node : nodes.node)
+                    mean += flux.field.rays.reflectance[k][static_cast<std::size_t>(node)] / 3.0;
+                sums.reflectance[k] += part * mean;
+            }
+        });
+    }
     return sums;
+}
+
+/// Adds the rays of `more` to `field`.
+void append(RayField<double>& field, RayField<double> more) {
+    auto join = [](std::vector<double>& to, const std::vector<double>& from) {
+        to.insert(to.end(), from.begin(), from.end());
+    };
+    Bundle<double>& a = field.rays;
+    const Bundle<double>& b = more.rays;
+    a.stop_crossings = b.stop_crossings;
+    join(a.u_mm, b.u_mm);
+    join(a.v_mm, b.v_mm);
+    join(a.x_mm, b.x_mm);
+    join(a.y_mm, b.y_mm);
+    join(a.weight, b.weight);
+    join(a.margin, b.margin);
+    for (std::size_t k = 0; k < 2; ++k) join(a.reflectance[k], b.reflectance[k]);
+    field.clearances.resize(more.clearances.size());
+    for (std::size_t k = 0; k < more.clearances.size(); ++k)
+        join(field.clearances[k], more.clearances[k]);
 }
 
 }  // namespace
@@ -96,42 +143,104 @@ PathQuadrature::PathQuadrature(const OpticalSystem& system, const GhostPath& pat
                                const BeamFrame& frame)
     : system_(system), path_(trace_path<double>(system, path)), frame_(frame) {}
 
+void PathQuadrature::trace_lattice(PathFlux& flux, const std::vector<std::uint64_t>& keys) const {
+    const PupilBox& box = flux.pupil.entrance;
+    const double across = std::ldexp(flux.pupil.across, deepest_level);
+    Bundle<double> rays;
+    for (const std::uint64_t key : keys) {
+        const auto [entry, is_new] = flux.node_at.try_emplace(key, 0);
+        if (!is_new) continue;
+        entry->second = static_cast<int>(flux.field.rays.size() + rays.size());
+        const double i = static_cast<double>(key & 0xffffffffU), j = static_cast<double>(key >> 32);
+        rays.u_mm.push_back(std::lerp(box.u0_mm, box.u1_mm, i / across));
+        rays.v_mm.push_back(std::lerp(box.v0_mm, box.v1_mm, j / across));
+    }
+    if (rays.size() == 0) return;
+    flux.rays += rays.size();
+    append(flux.field, trace_field(system_, path_, frame_, std::move(rays), Weights::polarised));
+}
+
+/// Splits every cell whose error is above the limit, all at once, so that rays are traced in bulk.
+void PathQuadrature::split(PathFlux& flux, double above_mm2) const {
+    std::vector<FluxCell> kept, children;
+    std::vector<double> parent_flux;
+    for (const FluxCell& cell : flux.cells) {
+        if (cell.error_mm2 <= above_mm2 || cell.level >= deepest_level) {
+            kept.push_back(cell);
+            continue;
+        }
+        parent_flux.push_back(cell.flux_mm2);
+        for (std::uint32_t k = 0; k < 4; ++k)
+            children.push_back({.i = 2 * cell.i + (k & 1), .j = 2 * cell.j + (k >> 1),
+                                .level = cell.level + 1});
+    }
+    std::vector<std::uint64_t> keys;
+    for (const FluxCell& child : children)
+        for (int k = 0; k < 4; ++k) keys.push_back(lattice_key(child, k));
+    trace_lattice(flux, keys);
+    for (std::size_t p = 0; p < parent_flux.size(); ++p) {
+        double sum = 0.0;
+        for (std::size_t c = 4 * p; c < 4 * p + 4; ++c) {
+            for (int k = 0; k < 4; ++k)
+                children[c].corner[k] = flux.node_at.at(lattice_key(children[c], k));
+            children[c].flux_mm2 = flux_of(flux, children[c]);
+            sum += children[c].flux_mm2;
+        }
+        for (std::size_t c = 4 * p; c < 4 * p + 4; ++c)
+            children[c].error_mm2 = 0.25 * std::abs(sum - parent_flux[p]);
+    }
+    kept.insert(kept.end(), children.begin(), children.end());
+    flux.cells = std::move(kept);
+    flux.sums.flux = 0.0;
+    flux.error_mm2 = 0.0;
+    for (const FluxCell& cell : flux.cells) {
+        flux.sums.flux += cell.flux_mm2;
+        flux.error_mm2 += cell.error_mm2;
+    }
+}
+
 PathFlux PathQuadrature::start() const {
     PathFlux flux;
-    const Pupil pupil = find_pupil(system_, path_, frame_);
-    flux.rays = pupil.rays;
-    flux.box = pupil.box;
-    flux.empty = pupil.empty;
-    if (!pupil.empty) integrate(flux, coarsest_grid);
+    flux.pupil = find_pupil(system_, path_, frame_);
+    flux.rays = flux.pupil.rays;
+    std::vector<std::uint64_t> keys;
+    for (const PupilCell& cell : flux.pupil.cells) {
+        flux.cells.push_back({.i = cell.i, .j = cell.j});
+        for (int k = 0; k < 4; ++k) keys.push_back(lattice_key(flux.cells.back(), k));
+    }
+    trace_lattice(flux, keys);
+    for (FluxCell& cell : flux.cells) {
+        for (int k = 0; k < 4; ++k) cell.corner[k] = flux.node_at.at(lattice_key(cell, k));
+        cell.flux_mm2 = flux_of(flux, cell);
+        cell.error_mm2 = 1.0;  // not known yet: every cell is split once
+    }
+    if (!flux.cells.empty()) split(flux, 0.0);
     return flux;
 }
 
 void PathQuadrature::refine(PathFlux& flux, double share, double floor_mm2,
                             std::stop_token stop) const {
-    while (!flux.empty && flux.cells < finest_grid && !stop.stop_requested() &&
-           flux.error_mm2 > std::max(share * flux.sums.flux, floor_mm2))
-        integrate(flux, 2 * flux.cells);
+    for (;;) {
+        const double allowed = std::max(share * flux.sums.flux, floor_mm2);
+        if (flux.error_mm2 <= allowed || flux.rays >= most_rays || stop.stop_requested()) break;
+        const std::size_t before = flux.cells.size();
+        split(flux, 0.5 * allowed / static_cast<double>(flux.cells.size()));
+        if (flux.cells.size() == before) break;
+    }
+    flux.sums = sums_of(flux, system_);
 }
 
 GhostMesh PathQuadrature::mesh(PathFlux& flux, const PixelFrame& pixels, double gain) const {
-    if (flux.empty) return {};
-    const int cells = std::max(flux.cells, mesh_grid);
-    const auto grid = trace_grid(system_, path_, frame_, flux.box, cells, split_cells,
-                                 Weights::polarised);
+    if (flux.cells.empty()) return {};
+    const auto grid = trace_grid(system_, path_, frame_, flux.pupil.box, mesh_grid, split_cells,
+                                 Weights::average);
     flux.rays += grid.rays();
-    return ghost_mesh(grid, pixels, gain);
-}
-
-/// The grid holds the two coarser ones: the quadrature is second order, so the difference to the
-/// next coarser is about three times its error; the one before that guards against chance.
-void PathQuadrature::integrate(PathFlux& flux, int cells) const {
-    const auto grid = trace_grid(system_, path_, frame_, flux.box, cells, split_cells,
-                                 Weights::polarised);
-    flux.sums = sums_of(grid, system_);
-    flux.cells = cells;
-    flux.rays += grid.rays();
-    const double half = flux_at_stride(grid, 2), quarter = flux_at_stride(grid, 4);
-    flux.error_mm2 = std::abs(flux.sums.flux - half) + 0.25 * std::abs(half - quarter);
+    double average = 0.0;
+    for_each_piece(grid, [&](const BundleGrid<double>&, const Piece& piece) {
+        average += flux_mm2(piece);
+    });
+    if (!(average > 0.0)) return {};
+    return ghost_mesh(grid, pixels, gain * flux.sums.flux / average);
 }
 
 }  // namespace ghostlight

@@ -12,16 +12,14 @@
 namespace ghostlight {
 namespace {
 
-constexpr int first_level_cells = 16;
+constexpr int first_level_cells = 24;
+constexpr int blind_levels = 3;  ///< cells of failing corners are kept that long
+constexpr double blind_clearance = 5.0;  ///< r_rel beside a failing corner that may still fall to 1
 constexpr int finest_level = 12;
-constexpr int wanted_cells_across = 12;
-constexpr int tight_level = 4;
-constexpr std::size_t enough_cells = 4000;
+constexpr std::size_t enough_passing = 100;  ///< nodes that pass: the region is resolved
+constexpr std::size_t most_cells = 3000;
 
-struct Cell {
-    std::uint32_t i, j;
-    std::uint64_t key() const { return (std::uint64_t{j} << 32) | i; }
-};
+std::uint64_t key_of(std::uint32_t i, std::uint32_t j) { return (std::uint64_t{j} << 32) | i; }
 
 struct Range {
     double low = std::numeric_limits<double>::infinity();
@@ -45,17 +43,17 @@ struct Nodes {
     Bundle<double> rays;
 
     std::size_t at(std::uint32_t i, std::uint32_t j) const {
-        const auto found = std::ranges::lower_bound(keys, Cell{i, j}.key());
+        const auto found = std::ranges::lower_bound(keys, key_of(i, j));
         return static_cast<std::size_t>(found - keys.begin());
     }
 };
 
 Nodes trace_nodes(const TracePath<double>& path, const BeamFrame& frame, const PupilBox& box,
-                  int cells_across, const std::vector<Cell>& cells) {
+                  int cells_across, const std::vector<PupilCell>& cells) {
     Nodes nodes;
-    for (const Cell& cell : cells)
+    for (const PupilCell& cell : cells)
         for (std::uint32_t k = 0; k < 4; ++k)
-            nodes.keys.push_back(Cell{cell.i + (k & 1), cell.j + (k >> 1)}.key());
+            nodes.keys.push_back(key_of(cell.i + (k & 1), cell.j + (k >> 1)));
     std::ranges::sort(nodes.keys);
     const auto repeated = std::ranges::unique(nodes.keys);
     nodes.keys.erase(repeated.begin(), repeated.end());
@@ -71,7 +69,7 @@ Nodes trace_nodes(const TracePath<double>& path, const BeamFrame& frame, const P
 
 /// Whether a ray through the cell may pass, if the map does not bend by more than `share` of its
 /// change across the cell. A cell whose corners all fail is kept on the first levels only.
-bool may_pass(const Nodes& nodes, const Cell& cell, int level, double stop_radius_mm) {
+bool may_pass(const Nodes& nodes, const PupilCell& cell, int level, double stop_radius_mm) {
     double share = level == 0 ? 0.75 : 0.4;
     const Bundle<double>& rays = nodes.rays;
     Range margin, clearance;
@@ -82,18 +80,20 @@ bool may_pass(const Nodes& nodes, const Cell& cell, int level, double stop_radiu
         margin.add(rays.margin[corner[k]]);
         if (rays.margin[corner[k]] >= 0.0) ++valid;
     }
+    const bool singular = margin.low < margin.high - margin.low;
     margin.widen(share);
     if (margin.high < 0.0) return false;
-    if (valid == 0) return level < 2;
-    // Past a miss or total reflection the map is only continued: trust the valid corners alone.
-    if (valid < 4) share = std::max(1.0, 2.0 * share);
+    if (valid == 0) return level < blind_levels;
+    // Past a miss or total reflection the map is only continued, and next to it it turns sharply:
+    // trust the valid corners alone, and less.
+    if (singular && level <= blind_levels) share = 2.0;
     for (const std::size_t c : corner)
         if (rays.margin[c] >= 0.0) clearance.add(rays.r_rel[c]);
-    if (valid == 1) clearance.low -= 0.5;
+    if (valid < 4 && level <= blind_levels) return clearance.low < blind_clearance;
     clearance.widen(share);
     if (clearance.low > 1.0) return false;
     if (valid < 4) return true;
-    for (int k = 0; k < rays.stop_crossings; ++k) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(rays.stop_crossings); ++k) {
         Range u, v;
         for (const std::size_t c : corner) {
             u.add(rays.stop_u_mm[k][c]);
@@ -106,21 +106,16 @@ bool may_pass(const Nodes& nodes, const Cell& cell, int level, double stop_radiu
     return true;
 }
 
-/// Whether the nodes that do pass reach to within two cells of the candidates' bounds.
-bool is_tight(const Nodes& nodes, const Range& i, const Range& j, double stop_radius_mm) {
-    const Bundle<double>& rays = nodes.rays;
-    Range pass_i, pass_j;
-    for (std::size_t n = 0; n < nodes.keys.size(); ++n) {
+std::size_t passing_nodes(const Bundle<double>& rays, double stop_radius_mm) {
+    std::size_t count = 0;
+    for (std::size_t n = 0; n < rays.size(); ++n) {
         bool passes = rays.margin[n] >= 0.0 && rays.r_rel[n] <= 1.0;
-        for (int k = 0; k < rays.stop_crossings; ++k)
+        for (std::size_t k = 0; k < static_cast<std::size_t>(rays.stop_crossings); ++k)
             passes = passes &&
                      std::hypot(rays.stop_u_mm[k][n], rays.stop_v_mm[k][n]) <= stop_radius_mm;
-        if (!passes) continue;
-        pass_i.add(static_cast<double>(nodes.keys[n] & 0xffffffffU));
-        pass_j.add(static_cast<double>(nodes.keys[n] >> 32));
+        count += passes ? 1 : 0;
     }
-    return pass_i.low <= i.low + 2.0 && pass_i.high >= i.high - 2.0 && pass_j.low <= j.low + 2.0 &&
-           pass_j.high >= j.high - 2.0;
+    return count;
 }
 
 }  // namespace
@@ -151,45 +146,43 @@ PupilBox entrance_box(const OpticalSystem& system, const BeamFrame& frame) {
 
 Pupil find_pupil(const OpticalSystem& system, const TracePath<double>& path,
                  const BeamFrame& frame) {
-    const PupilBox whole = entrance_box(system, frame);
     const double stop_radius_mm = system.stop_mask.semi_diameter_mm;
     Pupil pupil;
-    std::vector<Cell> cells;
+    pupil.entrance = entrance_box(system, frame);
+    pupil.across = first_level_cells;
     for (std::uint32_t j = 0; j < first_level_cells; ++j)
-        for (std::uint32_t i = 0; i < first_level_cells; ++i) cells.push_back({i, j});
-    int across = first_level_cells;
-    for (int level = 0;; ++level, across *= 2) {
-        const Nodes nodes = trace_nodes(path, frame, whole, across, cells);
+        for (std::uint32_t i = 0; i < first_level_cells; ++i) pupil.cells.push_back({i, j});
+    for (int level = 0;; ++level) {
+        const Nodes nodes = trace_nodes(path, frame, pupil.entrance, pupil.across, pupil.cells);
         pupil.rays += nodes.keys.size();
-        std::erase_if(cells, [&](const Cell& cell) {
+        std::erase_if(pupil.cells, [&](const PupilCell& cell) {
             return !may_pass(nodes, cell, level, stop_radius_mm);
         });
-        if (cells.empty()) return pupil;
-        Range i, j;
-        for (const Cell& cell : cells) {
-            i.add(cell.i);
-            i.add(cell.i + 1.0);
-            j.add(cell.j);
-            j.add(cell.j + 1.0);
-        }
-        const double narrow = std::min(i.high - i.low, j.high - j.low);
-        const bool resolved = narrow >= wanted_cells_across &&
-                              (is_tight(nodes, i, j, stop_radius_mm) || level >= tight_level);
-        if (resolved || cells.size() >= enough_cells || level == finest_level) {
-            const double du = (whole.u1_mm - whole.u0_mm) / across;
-            const double dv = (whole.v1_mm - whole.v0_mm) / across;
-            pupil.box = {whole.u0_mm + du * i.low, whole.u0_mm + du * i.high,
-                         whole.v0_mm + dv * j.low, whole.v0_mm + dv * j.high};
-            pupil.empty = false;
-            return pupil;
-        }
-        std::vector<Cell> finer;
-        finer.reserve(4 * cells.size());
-        for (const Cell& cell : cells)
+        if (pupil.empty()) return pupil;
+        if (passing_nodes(nodes.rays, stop_radius_mm) >= enough_passing ||
+            pupil.cells.size() >= most_cells || level == finest_level)
+            break;
+        std::vector<PupilCell> finer;
+        finer.reserve(4 * pupil.cells.size());
+        for (const PupilCell& cell : pupil.cells)
             for (std::uint32_t k = 0; k < 4; ++k)
                 finer.push_back({2 * cell.i + (k & 1), 2 * cell.j + (k >> 1)});
-        cells = std::move(finer);
+        pupil.cells = std::move(finer);
+        pupil.across *= 2;
     }
+    Range i, j;
+    for (const PupilCell& cell : pupil.cells) {
+        i.add(cell.i);
+        i.add(cell.i + 1.0);
+        j.add(cell.j);
+        j.add(cell.j + 1.0);
+    }
+    const PupilBox& whole = pupil.entrance;
+    const double du = (whole.u1_mm - whole.u0_mm) / pupil.across;
+    const double dv = (whole.v1_mm - whole.v0_mm) / pupil.across;
+    pupil.box = {whole.u0_mm + du * i.low, whole.u0_mm + du * i.high, whole.v0_mm + dv * j.low,
+                 whole.v0_mm + dv * j.high};
+    return pupil;
 }
 
 template <class T>

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "core/ghosts/bundle.h"
 
@@ -12,11 +14,19 @@ struct PupilBox {
     double area_mm2() const { return (u1_mm - u0_mm) * (v1_mm - v0_mm); }
 };
 
+/// A square cell of the entrance box divided into `across` × `across`.
+struct PupilCell {
+    std::uint32_t i = 0, j = 0;
+};
+
 /// Where rays of a path may pass.
 struct Pupil {
-    PupilBox box;
-    bool empty = true;
+    PupilBox entrance;  ///< what was searched
+    int across = 1;     ///< cells of `entrance` across
+    std::vector<PupilCell> cells;
+    PupilBox box;          ///< around the cells
     std::size_t rays = 0;  ///< spent in looking
+    bool empty() const { return cells.empty(); }
 };
 
 /// The box around the first surface's clear cap, as the beam sees it.
@@ -24,8 +34,8 @@ PupilBox entrance_box(const OpticalSystem& system, const BeamFrame& frame);
 
 /// Looks for the part of the entrance that reaches the sensor along `path`: cells that may hold a
 /// passing ray, judged by their corners' clearances and stop coordinates with a safety margin, are
-/// split until the passing region is a dozen cells wide. Follows the stop: a small stop's
-/// pre-image is found however small it is.
+/// split until enough of them pass. Follows the stop: a small stop's pre-image is found however
+/// small it is.
 Pupil find_pupil(const OpticalSystem& system, const TracePath<double>& path,
                  const BeamFrame& frame);
 

@@ -15,34 +15,34 @@ template <class V>
 struct Complex {
     V re{}, im{};
 
-    friend Complex operator+(const Complex& a, const Complex& b) {
+    GHOSTLIGHT_INLINE friend Complex operator+(const Complex& a, const Complex& b) {
         return {a.re + b.re, a.im + b.im};
     }
-    friend Complex operator-(const Complex& a, const Complex& b) {
+    GHOSTLIGHT_INLINE friend Complex operator-(const Complex& a, const Complex& b) {
         return {a.re - b.re, a.im - b.im};
     }
-    friend Complex operator*(const Complex& a, const Complex& b) {
+    GHOSTLIGHT_INLINE friend Complex operator*(const Complex& a, const Complex& b) {
         return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
     }
-    friend Complex operator*(const V& a, const Complex& b) { return {a * b.re, a * b.im}; }
+    GHOSTLIGHT_INLINE friend Complex operator*(const V& a, const Complex& b) { return {a * b.re, a * b.im}; }
 };
 
 template <class V>
-V norm(const Complex<V>& a) {
+GHOSTLIGHT_INLINE V norm(const Complex<V>& a) {
     return a.re * a.re + a.im * a.im;
 }
 template <class V>
-Complex<V> times_minus_i(const Complex<V>& a) {
+GHOSTLIGHT_INLINE Complex<V> times_minus_i(const Complex<V>& a) {
     return {a.im, -a.re};
 }
 template <class V>
-Complex<V> quotient(const Complex<V>& a, const Complex<V>& b) {
+GHOSTLIGHT_INLINE Complex<V> quotient(const Complex<V>& a, const Complex<V>& b) {
     const V inverse = Lane<V>(1) / norm(b);
     return {(a.re * b.re + a.im * b.im) * inverse, (a.im * b.re - a.re * b.im) * inverse};
 }
 /// The root with Im ≥ 0.
 template <class V>
-Complex<V> upper_sqrt(const Complex<V>& a) {
+GHOSTLIGHT_INLINE Complex<V> upper_sqrt(const Complex<V>& a) {
     using std::fabs;
     using std::sqrt;
     const V modulus = sqrt(norm(a));
@@ -65,7 +65,7 @@ struct Phase {
 };
 
 template <class V>
-Phase<V, V> phase_of(const V& x) {
+GHOSTLIGHT_INLINE Phase<V, V> phase_of(const V& x) {
     using std::cos;
     using std::exp;
     using std::fabs;
@@ -99,7 +99,7 @@ Phase<V, V> phase_of(const V& x) {
 }
 
 template <class V>
-Phase<Complex<V>, V> phase_of(const Complex<V>& x) {
+GHOSTLIGHT_INLINE Phase<Complex<V>, V> phase_of(const Complex<V>& x) {
     using std::cos;
     using std::exp;
     using std::sin;
@@ -159,7 +159,7 @@ struct Polarised {
 
 /// One layer, from its exit side to its entrance side: (B, C) of s and of p.
 template <class Index, class V, class T>
-void pass_layer(const Index& n2, const Index& w2, const T& k0_d, Polarised<V>& s, Polarised<V>& p,
+GHOSTLIGHT_INLINE void pass_layer(const Index& n2, const Index& w2, const T& k0_d, Polarised<V>& s, Polarised<V>& p,
                 V& decay) {
     Index x;
     if constexpr (std::is_same_v<Index, V>)
@@ -184,7 +184,7 @@ void pass_layer(const Index& n2, const Index& w2, const T& k0_d, Polarised<V>& s
 }
 
 template <class V>
-void amplitudes_of(const Polarised<V>& f, const V& y0, const V& y_exit_re, const V& decay_factor,
+GHOSTLIGHT_INLINE void amplitudes_of(const Polarised<V>& f, const V& y0, const V& y_exit_re, const V& decay_factor,
                    Complex<V>& r, Complex<V>& t) {
     const Complex<V> yb = y0 * f.b;
     const Complex<V> sum = yb + f.c;
@@ -199,7 +199,7 @@ void amplitudes_of(const Polarised<V>& f, const V& y0, const V& y_exit_re, const
 /// `layers` from the incident side. `Absorbing` picks complex indices; without it the imaginary
 /// parts are ignored. The exit and incident media are lossless.
 template <bool Absorbing, class V, class T>
-Amplitudes<V> film_amplitudes(const T& n_in, const LayerAt<T>* layers, int layer_count,
+GHOSTLIGHT_INLINE Amplitudes<V> film_amplitudes(const T& n_in, const LayerAt<T>* layers, int layer_count,
                               const T& n_out, const V& cos_incidence) {
     using std::exp;
     using L = Lane<V>;

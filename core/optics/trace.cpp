@@ -107,7 +107,8 @@ TracedRay trace_ray(const OpticalSystem& system, const GhostPath& ghost, const R
         }
         if (!(meeting.hemisphere_margin > 0.0)) clip(RayFate::clipped, surface);
         const glm::dvec3 before = at.direction;
-        if (turn(step, meeting, at) < 0.0) {
+        const double cos2_squared = turn(step, meeting, at);
+        if (!step.reflects && cos2_squared < 0.0) {
             result.hits.push_back(hit);
             return fail(RayFate::tir, surface);
         }

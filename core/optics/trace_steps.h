@@ -19,19 +19,19 @@ template <class V>
 using Vec3 = glm::vec<3, V>;
 
 template <class V>
-V dot(const Vec3<V>& a, const Vec3<V>& b) {
+GHOSTLIGHT_INLINE V dot(const Vec3<V>& a, const Vec3<V>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 template <class V>
-Vec3<V> cross(const Vec3<V>& a, const Vec3<V>& b) {
+GHOSTLIGHT_INLINE Vec3<V> cross(const Vec3<V>& a, const Vec3<V>& b) {
     return Vec3<V>(V(a.y * b.z - a.z * b.y), V(a.z * b.x - a.x * b.z), V(a.x * b.y - a.y * b.x));
 }
 template <class V>
-Vec3<V> along(const Vec3<V>& p, const Vec3<V>& d, const V& t) {
+GHOSTLIGHT_INLINE Vec3<V> along(const Vec3<V>& p, const Vec3<V>& d, const V& t) {
     return Vec3<V>(V(p.x + t * d.x), V(p.y + t * d.y), V(p.z + t * d.z));
 }
 template <class V>
-Vec3<V> mix(const V& a, const Vec3<V>& p, const V& b, const Vec3<V>& q) {
+GHOSTLIGHT_INLINE Vec3<V> mix(const V& a, const Vec3<V>& p, const V& b, const Vec3<V>& q) {
     return Vec3<V>(V(a * p.x + b * q.x), V(a * p.y + b * q.y), V(a * p.z + b * q.z));
 }
 
@@ -55,7 +55,7 @@ namespace detail {
 
 /// Sag and dsag/d(r²) of an even asphere; `domain` is 1 − (1+k)c²r².
 template <class V, class T>
-void sag_of(const TraceStep<T>& step, const T* a, const V& r2, V& sag, V& slope, V& domain) {
+GHOSTLIGHT_INLINE void sag_of(const TraceStep<T>& step, const T* a, const V& r2, V& sag, V& slope, V& domain) {
     using L = Lane<V>;
     const T c = step.curvature;
     domain = L(1) - (L(1) + step.conic) * c * c * r2;
@@ -134,7 +134,7 @@ void refine_asphere(const TraceStep<T>& step, const T* a, RayAt<V>& ray, Meeting
 
 /// Moves the ray to the surface of `step`, in that surface's own coordinates.
 template <class V, class T>
-Meeting<V> meet(const TraceStep<T>& step, const T* aspheric, RayAt<V>& ray) {
+GHOSTLIGHT_INLINE Meeting<V> meet(const TraceStep<T>& step, const T* aspheric, RayAt<V>& ray) {
     using std::sqrt;
     using L = Lane<V>;
     Meeting<V> meeting;
@@ -165,25 +165,24 @@ Meeting<V> meet(const TraceStep<T>& step, const T* aspheric, RayAt<V>& ray) {
     return meeting;
 }
 
-/// Turns the ray at the surface; returns the margin against total reflection (1 where it reflects).
+/// Turns the ray at the surface; returns cos² of the refraction, negative in total reflection.
 template <class V, class T>
-V turn(const TraceStep<T>& step, const Meeting<V>& meeting, RayAt<V>& ray) {
+GHOSTLIGHT_INLINE V turn(const TraceStep<T>& step, const Meeting<V>& meeting, RayAt<V>& ray) {
     using L = Lane<V>;
     const V& cos1 = meeting.cos_incidence;
-    V margin{L(1)};
+    const T eta = step.n_in / step.n_out;
+    const V cos2_squared = L(1) - eta * eta * (L(1) - cos1 * cos1);
     if (step.reflects) {
         ray.direction = along(ray.direction, meeting.normal, V(L(-2) * cos1));
     } else if (step.n_in != step.n_out) {
-        const T eta = step.n_in / step.n_out;
-        margin = L(1) - eta * eta * (L(1) - cos1 * cos1);
-        const V cos2 = sqrt_or_zero(margin);
+        const V cos2 = sqrt_or_zero(cos2_squared);
         ray.direction = mix(V(eta), ray.direction, V(cos2 - eta * cos1), meeting.normal);
     }
     // One Newton step towards unit length: rounding does not add up over hundreds of surfaces.
     const V fix = L(1.5) - L(0.5) * dot(ray.direction, ray.direction);
     ray.direction =
         Vec3<V>(V(fix * ray.direction.x), V(fix * ray.direction.y), V(fix * ray.direction.z));
-    return margin;
+    return cos2_squared;
 }
 
 /// The Jones matrix accumulated along the path, in the frame (s, k̂ × s): column 0 for light that
@@ -197,7 +196,7 @@ struct JonesState {
 };
 
 template <class V, class T>
-JonesState<V> jones_start(const Vec3<T>& e1) {
+GHOSTLIGHT_INLINE JonesState<V> jones_start(const Vec3<T>& e1) {
     const V zero{Lane<V>(0)};
     const V one{Lane<V>(1)};
     return {Vec3<V>(V(e1.x), V(e1.y), V(e1.z)),
@@ -208,7 +207,7 @@ JonesState<V> jones_start(const Vec3<T>& e1) {
 /// Turns the frame into the plane of incidence and applies the interface. `before` is the ray's
 /// direction before the event.
 template <class V>
-void apply(const Amplitudes<V>& film, bool reflects, const Meeting<V>& meeting,
+GHOSTLIGHT_INLINE void apply(const Amplitudes<V>& film, bool reflects, const Meeting<V>& meeting,
            const Vec3<V>& before, JonesState<V>& state) {
     using std::sqrt;
     using L = Lane<V>;
@@ -234,7 +233,7 @@ void apply(const Amplitudes<V>& film, bool reflects, const Meeting<V>& meeting,
 }
 
 template <class V, class T>
-Amplitudes<V> amplitudes(const TraceStep<T>& step, const LayerAt<T>* layers,
+GHOSTLIGHT_INLINE Amplitudes<V> amplitudes(const TraceStep<T>& step, const LayerAt<T>* layers,
                          const V& cos_incidence) {
     const LayerAt<T>* own = layers + step.first_layer;
     return step.absorbing
