@@ -57,6 +57,11 @@ Table reflectance_table(const FilmAt& film_at_wavelength, const std::vector<doub
         const Film film = film_at_wavelength(wavelength_nm);
         for (const double angle_deg : angles_deg) {
             const Reflectances found = reflectances(film, cos_deg(angle_deg));
+            if (!std::isfinite(found.r() + found.t()))
+                throw Error(
+                    fmt::format("no reflectance at {} nm and {} degrees: an index or a "
+                                "thickness is beyond what numbers can hold",
+                                wavelength_nm, angle_deg));
             table.rows.push_back({wavelength_nm, angle_deg, found.r_s, found.r_p, found.r(),
                                   found.t_s, found.t_p, found.t()});
         }
@@ -66,8 +71,8 @@ Table reflectance_table(const FilmAt& film_at_wavelength, const std::vector<doub
 
 void run(const CoatingOptions& options) {
     const auto wavelengths_nm =
-        list_value("--wavelengths", options.wavelengths, "wavelengths in nm above 0",
-                   [](double nm) { return nm > 0.0; });
+        list_value("--wavelengths", options.wavelengths, "wavelengths in nm from 100 to 100000",
+                   is_usable_wavelength);
     const auto angles_deg = list_value("--angles", options.angles, "angles in degrees from 0 to 90",
                                        [](double deg) { return deg >= 0.0 && deg <= 90.0; });
     Report report;

@@ -90,8 +90,9 @@ std::filesystem::path find_lens(const std::string& text) {
 
 void override_stop(Prescription& lens, const LensOptions& options) {
     if (!options.f_number.empty()) {
-        lens.stop.f_number = number_value("--f-number", options.f_number, "a number above 0",
-                                          [](double n) { return n > 0.0; });
+        lens.stop.f_number =
+            number_value("--f-number", options.f_number, "a number above 0, at most 1e6",
+                         [](double n) { return n > 0.0 && n <= 1e6; });
         lens.stop.semi_diameter_mm.reset();
     }
     if (!options.stop_semi_diameter.empty()) {
@@ -194,9 +195,11 @@ long integer_value(std::string_view option, std::string_view text, std::string_v
     return value;
 }
 
+bool is_usable_wavelength(double nm) { return nm >= 100.0 && nm <= 1e5; }
+
 double wavelength_value(std::string_view option, std::string_view text) {
-    return number_value(option, text, "a wavelength in nm above 0",
-                        [](double nm) { return nm > 0.0; });
+    return number_value(option, text, "a wavelength in nm from 100 to 100000",
+                        is_usable_wavelength);
 }
 
 std::vector<double> list_value(std::string_view option, std::string_view text,

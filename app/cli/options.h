@@ -47,6 +47,8 @@ double number_value(std::string_view option, std::string_view text, std::string_
 long integer_value(std::string_view option, std::string_view text, std::string_view expected,
                    long least, long most);
 
+/// Beyond 100 to 100000 nm a model glass has no meaning, and soon no number either.
+bool is_usable_wavelength(double nm);
 double wavelength_value(std::string_view option, std::string_view text);
 
 /// Numbers written "A:B:STEP" (the end included, within rounding), one number, or several of

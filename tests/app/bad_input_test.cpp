@@ -60,7 +60,8 @@ TEST(CommandLineRefuses, LensFiles) {
 }
 
 TEST(CommandLineRefuses, Wavelengths) {
-    for (const std::string text : {"red", "0", "-550", "nan", "inf", "550nm", "1e400", " "})
+    for (const std::string text :
+         {"red", "0", "-550", "nan", "inf", "550nm", "1e400", " ", "99", "1e-300", "1e6"})
         expect_refused(info({"--wavelength", text}), {"--wavelength", "'" + text + "'", "nm"});
     expect_refused({"ghosts", tessar(), "--field", "0", "--wavelength", "550", "--spectrum", "D65"},
                    {"--wavelength", "--spectrum"});
@@ -74,7 +75,7 @@ TEST(CommandLineRefuses, WavelengthsOutsideTheRangeOfALayer) {
 }
 
 TEST(CommandLineRefuses, Overrides) {
-    for (const std::string text : {"0", "-2", "nan", "wide", "f/2", ""})
+    for (const std::string text : {"0", "-2", "nan", "wide", "f/2", "", "1e9"})
         expect_refused(info({"--f-number", text}), {"--f-number"});
     for (const std::string text : {"0", "-2", "inf"})
         expect_refused(info({"--stop-semi-diameter", text}), {"--stop-semi-diameter", text});
@@ -160,6 +161,12 @@ TEST(CommandLineRefuses, Coatings) {
                                     "| 1.5", "1 | 1.38,-1:50 | 1.5", "0 | 1.5"})
         expect_refused({"coating", "--stack", stack, "--wavelengths", "550", "--angles", "0"},
                        {"--stack"});
+}
+
+TEST(CommandLineRefuses, StacksBeyondNumbers) {
+    expect_refused(
+        {"coating", "--stack", "1 | 1e300:1e300 | 1.5", "--wavelengths", "550", "--angles", "0"},
+        {"550 nm"});
 }
 
 TEST(CommandLineRefuses, Pictures) {
