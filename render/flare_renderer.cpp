@@ -14,8 +14,8 @@ namespace ghostlight {
 
 namespace {
 
-constexpr int least_gl_version = 32;        // as epoxy counts: 3.2
-constexpr double exact_px_per_texel = 3.0;  // from here on pixels are shown as squares
+constexpr int least_gl_version = 32;            // as epoxy counts: 3.2
+constexpr double exact_px_per_texel = 3.0;      // from here on pixels are shown as squares
 constexpr float highlight_floor_share = 1e-4F;  // of the brightest: raster rounding is below
 
 void require_size(const std::vector<float>& data, const FlareImage& image, std::size_t channels,
@@ -102,7 +102,8 @@ void FlareRenderer::draw(const PictureTexture& picture, const PictureFrame& fram
     }
     // Every state this depends on is set: Qt's painter and VTK leave their own behind.
     glViewport(0, 0, viewport_width_px, viewport_height_px);
-    for (const GLenum off : {GL_BLEND, GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST, GL_CULL_FACE}) {
+    for (const GLenum off :
+         {GL_BLEND, GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST, GL_CULL_FACE}) {
         glDisable(off);
     }
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -122,9 +123,8 @@ void FlareRenderer::draw(const PictureTexture& picture, const PictureFrame& fram
     const auto uniform = [&](const char* name) { return program_used.uniform(name); };
 
     glUseProgram(program_used.name());
-    glUniform4f(uniform("rectangle"), clip_x(frame.left_px),
-                clip_y(frame.top_px + frame.height_px), clip_x(frame.left_px + frame.width_px),
-                clip_y(frame.top_px));
+    glUniform4f(uniform("rectangle"), clip_x(frame.left_px), clip_y(frame.top_px + frame.height_px),
+                clip_x(frame.left_px + frame.width_px), clip_y(frame.top_px));
     glUniform1f(uniform("scale"), static_cast<float>(std::exp2(look.exposure_ev)));
     glUniform1f(uniform("highlight_floor"), picture.highlight_floor);
     glUniform1f(uniform("highlight_mean"), picture.highlight_mean);

@@ -45,7 +45,7 @@ class PictureUpload {
 /// How a picture is shown.
 struct PictureLook {
     double exposure_ev = 0.0;
-    std::array<float, 3> surround{0.0F, 0.0F, 0.0F};   ///< sRGB, around the picture
+    std::array<float, 3> surround{0.0F, 0.0F, 0.0F};      ///< sRGB, around the picture
     std::array<float, 3> highlight{0.22F, 0.71F, 0.79F};  ///< sRGB
     bool show_highlight = true;
 };

@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <array>
 
 #include "core/error.h"
@@ -18,7 +19,12 @@ std::string log_of(GLuint object, bool is_program) {
     } else {
         glGetShaderInfoLog(object, static_cast<GLsizei>(text.size()), &length, text.data());
     }
-    return {text.data(), static_cast<std::size_t>(length)};
+    std::string line(text.data(), static_cast<std::size_t>(length));
+    while (!line.empty() && line.back() == '\n') {
+        line.pop_back();
+    }
+    std::ranges::replace(line, '\n', ' ');  // an Error is one line
+    return line;
 }
 
 GLuint compiled(GLenum kind, const std::string& source) {
@@ -82,8 +88,8 @@ void GlTexture::upload(int width_px, int height_px, int channels, const float* d
                      .found = std::to_string(width_px) + " x " + std::to_string(height_px) + " px",
                      .expected = "1 to " + std::to_string(largest) + " px a side"});
     }
-    const bool same = name_ != 0 && width_px == width_px_ && height_px == height_px_ &&
-                      channels == channels_;
+    const bool same =
+        name_ != 0 && width_px == width_px_ && height_px == height_px_ && channels == channels_;
     if (name_ == 0) {
         glGenTextures(1, &name_);
     }

@@ -40,10 +40,8 @@ PictureFrame framed(double viewport_width_px, double viewport_height_px, double 
     frame.width_px = sensor_width_mm * px_per_mm;
     frame.height_px = sensor_height_mm * px_per_mm;
     // Picture right is −x and picture down is +y.
-    frame.left_px =
-        viewport_width_px / 2.0 - frame.width_px / 2.0 + zoom.center_mm.x * px_per_mm;
-    frame.top_px =
-        viewport_height_px / 2.0 - frame.height_px / 2.0 - zoom.center_mm.y * px_per_mm;
+    frame.left_px = viewport_width_px / 2.0 - frame.width_px / 2.0 + zoom.center_mm.x * px_per_mm;
+    frame.top_px = viewport_height_px / 2.0 - frame.height_px / 2.0 - zoom.center_mm.y * px_per_mm;
     return frame;
 }
 

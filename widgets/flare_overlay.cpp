@@ -48,8 +48,8 @@ void paint_arrow(QPainter& painter, QPointF center, QPointF light, QSizeF view_p
     const QPointF tip = center + along * reach;
     const QPointF across(-along.y(), along.x());
     const QPointF tail = tip - along * arrow_length_px;
-    const QPolygonF arrow{{tip, tail + across * arrow_half_width_px,
-                           tail + along * 3.0, tail - across * arrow_half_width_px}};
+    const QPolygonF arrow{{tip, tail + across * arrow_half_width_px, tail + along * 3.0,
+                           tail - across * arrow_half_width_px}};
     painter.setBrush(current_palette().amber);
     painter.setPen(QPen(QColor(0, 0, 0, 150), 1.5));
     painter.drawPolygon(arrow);
@@ -76,7 +76,8 @@ void paint_light(QPainter& painter, const PictureFrame& frame, QSizeF view_px,
     if (!std::isfinite(at.x) || !std::isfinite(at.y)) {
         return;
     }
-    const bool inside = at.x >= 0.0 && at.y >= 0.0 && at.x < view_px.width() && at.y < view_px.height();
+    const bool inside =
+        at.x >= 0.0 && at.y >= 0.0 && at.x < view_px.width() && at.y < view_px.height();
     if (inside) {
         paint_ring(painter, {at.x, at.y});
         return;
@@ -101,8 +102,10 @@ std::optional<float> irradiance_at(const FlareImage& image, double x_mm, double 
 }
 
 QString position_text(double x_mm, double y_mm) {
-    QString text = QStringLiteral("%1, %2 mm")
-                       .arg(QString::number(x_mm, 'f', 2), QString::number(y_mm, 'f', 2));
+    const auto hundredths = [](double mm) {
+        return QString::number(std::round(mm * 100.0) / 100.0 + 0.0, 'f', 2);  // no minus zero
+    };
+    QString text = QStringLiteral("%1, %2 mm").arg(hundredths(x_mm), hundredths(y_mm));
     return text.replace('-', QChar(0x2212));
 }
 
@@ -123,9 +126,9 @@ void paint_readout(QPainter& painter, const PictureFrame& frame, QSizeF view_px,
     bold.setWeight(QFont::DemiBold);
     const QFontMetricsF bold_metrics(bold), metrics(painter.font());
     const double line = metrics.height() + 2.0;
-    const double width = std::max(bold_metrics.horizontalAdvance(position),
-                                  metrics.horizontalAdvance(amount)) +
-                         2.0 * readout_padding_px;
+    const double width =
+        std::max(bold_metrics.horizontalAdvance(position), metrics.horizontalAdvance(amount)) +
+        2.0 * readout_padding_px;
     QRectF box(cursor.x() + readout_offset_px, cursor.y() + readout_offset_px, std::ceil(width),
                std::ceil(2.0 * line + 2.0 * readout_padding_px - 2.0));
     // On the cursor's other side where there is no room.

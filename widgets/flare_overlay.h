@@ -1,8 +1,8 @@
 #pragma once
 
 #include <QPointF>
-#include <QString>
 #include <QSizeF>
+#include <QString>
 
 #include <optional>
 

@@ -43,12 +43,14 @@ FlareView::~FlareView() { close_gl(); }
 void FlareView::set_image(std::shared_ptr<const FlareImage> image) {
     image_ = std::move(image);
     upload_pending_ = image_ != nullptr;
+    awaits_picture_ = false;
     software_picture_ = {};
     refresh();
 }
 
 void FlareView::set_light(const LightDirection& light, double efl_mm) {
     light_ = light;
+    awaits_picture_ = image_ == nullptr;
     efl_mm_ = std::isfinite(efl_mm) && efl_mm != 0.0 ? efl_mm : 50.0;  // an afocal lens: any scale
     refresh();
 }
@@ -125,8 +127,11 @@ void FlareView::paint_without_gl(QPainter& painter) {
 void FlareView::paint_overlay(QPainter& painter) {
     if (!image_) {
         painter.setPen(current_palette().dim);
-        painter.drawText(rect().adjusted(16, 16, -16, -16), Qt::AlignCenter | Qt::TextWordWrap,
-                         tr("The flare appears here.\nOpen a lens file, or drop one on the window."));
+        painter.drawText(
+            rect().adjusted(16, 16, -16, -16), Qt::AlignCenter | Qt::TextWordWrap,
+            awaits_picture_
+                ? tr("Tracing the first picture…")
+                : tr("The flare appears here.\nOpen a lens file, or drop one on the window."));
         return;
     }
     paint_light(painter, frame(), size(), light_, efl_mm_);

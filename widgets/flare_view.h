@@ -67,6 +67,7 @@ class FlareView : public GlView {
 
     std::shared_ptr<const FlareImage> image_;
     bool upload_pending_ = false;
+    bool awaits_picture_ = false;  ///< a lens is there, its picture not yet
     LightDirection light_;
     double efl_mm_ = 50.0;
     double exposure_ev_ = 0.0;

@@ -66,11 +66,12 @@ class GlView::Surface : public QOpenGLWidget {
    protected:
     void initializeGL() override {
         // A dock that floats brings its own window, and with it a new context.
-        about_to_be_destroyed_ = connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] {
-            makeCurrent();
-            release();
-            doneCurrent();
-        });
+        about_to_be_destroyed_ =
+            connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] {
+                makeCurrent();
+                release();
+                doneCurrent();
+            });
         initialized_ = true;
         view_->init_gl();
     }

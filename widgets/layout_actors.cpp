@@ -26,7 +26,9 @@ namespace {
 enum Layer { glass_layer, axis_layer, direct_layer, outline_layer, ghost_layer, hard_layer };
 
 QColor mixed(const QColor& a, const QColor& b, double share_of_b) {
-    const auto channel = [&](int from, int to) { return int(std::lround(from + (to - from) * share_of_b)); };
+    const auto channel = [&](int from, int to) {
+        return int(std::lround(from + (to - from) * share_of_b));
+    };
     return {channel(a.red(), b.red()), channel(a.green(), b.green()), channel(a.blue(), b.blue())};
 }
 
@@ -192,8 +194,9 @@ void LayoutActors::show_lens(const LensDrawing& drawing, const Palette& colors) 
         }
     }
     const SensorLine& sensor = drawing.sensor;
-    outlines.add_line({{sensor.z_mm, -sensor.half_diagonal_mm}, {sensor.z_mm, sensor.half_diagonal_mm}},
-                      outline_layer, mixed(colors.panel, colors.dim, 0.6));
+    outlines.add_line(
+        {{sensor.z_mm, -sensor.half_diagonal_mm}, {sensor.z_mm, sensor.half_diagonal_mm}},
+        outline_layer, mixed(colors.panel, colors.dim, 0.6));
     hard.add_line({{sensor.z_mm, -sensor.half_length_mm}, {sensor.z_mm, sensor.half_length_mm}},
                   hard_layer, colors.text);
     for (Shape* shape : {&glass, &outlines, &hard}) {

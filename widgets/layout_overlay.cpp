@@ -72,8 +72,8 @@ void spread(std::vector<PlacedMark>& marks) {
 void paint_marks(QPainter& painter, const std::vector<RayFan>& fans, const PlaneView& plane) {
     const Palette& colors = current_palette();
     std::vector<PlacedMark> marks;
-    const auto ghosts = std::ranges::count_if(
-        fans, [](const RayFan& fan) { return !fan.path.is_direct(); });
+    const auto ghosts =
+        std::ranges::count_if(fans, [](const RayFan& fan) { return !fan.path.is_direct(); });
     for (const RayFan& fan : fans) {
         for (const ReflectionMark& mark : fan.marks) {
             marks.push_back({plane.to_view(mark.at), mark.number,

@@ -147,8 +147,8 @@ SensorLine sensor_line(const Prescription& lens, const OpticalSystem* system,
     SensorLine sensor;
     sensor.z_mm = sensor_z(lens, system);
     sensor.half_diagonal_mm = diagonal;
-    sensor.half_length_mm =
-        std::min({diagonal, half_width / std::max(along_x, 1e-9), half_height / std::max(along_y, 1e-9)});
+    sensor.half_length_mm = std::min(
+        {diagonal, half_width / std::max(along_x, 1e-9), half_height / std::max(along_y, 1e-9)});
     return sensor;
 }
 

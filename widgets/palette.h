@@ -6,9 +6,9 @@ namespace ghostlight {
 
 /// The workbench's colours, by role. Each has one meaning wherever it appears.
 struct Palette {
-    QColor ground;      ///< behind everything
-    QColor panel;       ///< panels and drawings
-    QColor line;        ///< separators, grids
+    QColor ground;  ///< behind everything
+    QColor panel;   ///< panels and drawings
+    QColor line;    ///< separators, grids
     QColor text;
     QColor dim;         ///< secondary text, what is stale
     QColor amber;       ///< light and magnitude; a ghost's rays on their way in

@@ -20,13 +20,12 @@ DrawingPoint PlaneView::to_drawing(QPointF position) const {
 }
 
 void PlaneView::fit(const DrawingBox& box, QMarginsF margins_px) {
-    const double width =
-        std::max(size_px_.width() - margins_px.left() - margins_px.right(), 16.0);
+    const double width = std::max(size_px_.width() - margins_px.left() - margins_px.right(), 16.0);
     const double height =
         std::max(size_px_.height() - margins_px.top() - margins_px.bottom(), 16.0);
-    mm_per_px_ = std::clamp(
-        std::max((box.z_max - box.z_min) / width, (box.y_max - box.y_min) / height),
-        finest_mm_per_px, coarsest_mm_per_px);
+    mm_per_px_ =
+        std::clamp(std::max((box.z_max - box.z_min) / width, (box.y_max - box.y_min) / height),
+                   finest_mm_per_px, coarsest_mm_per_px);
     center_ = {(box.z_min + box.z_max) / 2.0, (box.y_min + box.y_max) / 2.0};
     center_.x += (margins_px.right() - margins_px.left()) / 2.0 * mm_per_px_;
     center_.y += (margins_px.top() - margins_px.bottom()) / 2.0 * mm_per_px_;

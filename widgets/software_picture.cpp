@@ -29,9 +29,11 @@ QImage software_picture(const FlareImage& image, const PictureFrame& frame, QSiz
             const int row = std::clamp(
                 static_cast<int>((point.y / frame.sensor_height_mm + 0.5) * image.height_px), 0,
                 image.height_px - 1);
-            const auto at = static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width_px) +
-                            static_cast<std::size_t>(column);
-            const std::array<float, 3> rgb{image.rgb[3 * at], image.rgb[3 * at + 1], image.rgb[3 * at + 2]};
+            const auto at =
+                static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width_px) +
+                static_cast<std::size_t>(column);
+            const std::array<float, 3> rgb{image.rgb[3 * at], image.rgb[3 * at + 1],
+                                           image.rgb[3 * at + 2]};
             std::array<float, 3> shown = tone_mapped(rgb, exposure_ev);
             if (!image.highlight.empty()) {
                 const float cover = highlight_tint(image.highlight[at], scale);
@@ -39,7 +41,9 @@ QImage software_picture(const FlareImage& image, const PictureFrame& frame, QSiz
                     shown[c] = std::lerp(shown[c], tint[c], cover);
                 }
             }
-            const auto byte = [](float value) { return static_cast<int>(std::lround(255.0F * value)); };
+            const auto byte = [](float value) {
+                return static_cast<int>(std::lround(255.0F * value));
+            };
             line[x] = qRgb(byte(shown[0]), byte(shown[1]), byte(shown[2]));
         }
     }

@@ -72,19 +72,16 @@ void FlarePanel::auto_expose() {
     }
 }
 
-void FlarePanel::set_dimmed(bool stale) {
-    header_->set_dimmed(stale);
-}
+void FlarePanel::set_dimmed(bool stale) { header_->set_dimmed(stale); }
 
 double FlarePanel::last_upload_ms() const { return view_->last_upload_ms(); }
 
 QImage FlarePanel::grab_view() { return view_->grab_view(); }
 
 void FlarePanel::show_state() {
-    header_->set_state(view_->image() == nullptr
-                           ? QString()
-                           : tr("exposure %1 EV · sRGB · drag the light")
-                                 .arg(exposure_text(view_->exposure_ev())));
+    header_->set_state(view_->image() == nullptr ? QString()
+                                                 : tr("exposure %1 EV · sRGB · drag the light")
+                                                       .arg(exposure_text(view_->exposure_ev())));
 }
 
 }  // namespace ghostlight

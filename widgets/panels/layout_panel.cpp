@@ -19,7 +19,7 @@ namespace {
 
 constexpr int direct_rays = 9;
 constexpr int ghost_rays = 7;
-constexpr int many_ghost_rays = 5;    // each, when several are selected
+constexpr int many_ghost_rays = 5;      // each, when several are selected
 constexpr std::size_t most_ghosts = 8;  // more would only hide each other, and cost time
 
 QString length_text(double mm) { return QString::number(mm, 'f', 2).replace('-', QChar(0x2212)); }
@@ -28,16 +28,16 @@ QString surface_text(const Prescription& lens, const OpticalSystem* system, std:
     const QString number = QString::number(row + 1);
     if (row == lens.stop.surface) {
         const QString text = LayoutPanel::tr("surface %1 · stop").arg(number);
-        return system == nullptr
-                   ? text
-                   : LayoutPanel::tr("%1 · radius %2 mm")
-                         .arg(text, length_text(system->stop_mask.semi_diameter_mm));
+        return system == nullptr ? text
+                                 : LayoutPanel::tr("%1 · radius %2 mm")
+                                       .arg(text, length_text(system->stop_mask.semi_diameter_mm));
     }
     const Surface& surface = lens.surfaces[row];
     const double curvature = curvature_per_mm(surface.curve);
-    QString text = curvature == 0.0 ? LayoutPanel::tr("surface %1 · plane").arg(number)
-                                    : LayoutPanel::tr("surface %1 · R %2 mm")
-                                          .arg(number, length_text(1.0 / curvature));
+    QString text =
+        curvature == 0.0
+            ? LayoutPanel::tr("surface %1 · plane").arg(number)
+            : LayoutPanel::tr("surface %1 · R %2 mm").arg(number, length_text(1.0 / curvature));
     if (surface.conic != 0.0 || !surface.aspheric.empty()) {
         text += LayoutPanel::tr(" · asphere");
     }
@@ -123,7 +123,8 @@ void LayoutPanel::clear() {
     surface_texts_.clear();
     failure_.clear();
     direct_text_.clear();
-    view_->show_nothing(tr("The lens is drawn here in section.\nOpen a lens file, or drop one on the window."));
+    view_->show_nothing(
+        tr("The lens is drawn here in section.\nOpen a lens file, or drop one on the window."));
     show_state();
 }
 
@@ -154,8 +155,8 @@ void LayoutPanel::show_state() {
     if (ghosts == 0) {
         const int direct = view_->fans().empty() ? 0 : view_->fans().front().rays;
         header_->set_state(direct_text_.isEmpty() ? QString()
-                                                  : direct > 0 ? tr("%1 · %2 rays").arg(direct_text_).arg(direct)
-                                                               : tr("%1 · no ray passes").arg(direct_text_));
+                           : direct > 0 ? tr("%1 · %2 rays").arg(direct_text_).arg(direct)
+                                        : tr("%1 · no ray passes").arg(direct_text_));
         return;
     }
     const QString who = ghosts == 1 ? tr("ghost %1").arg(first) : tr("%1 ghosts").arg(ghosts);
