@@ -159,7 +159,8 @@ struct Polarised {
 
 /// One layer, from its exit side to its entrance side: (B, C) of s and of p.
 template <class Index, class V, class T>
-GHOSTLIGHT_INLINE void pass_layer(const Index& n2, const Index& w2, const T& k0_d, Polarised<V>& s, Polarised<V>& p,
+GHOSTLIGHT_INLINE void pass_layer(const Index& n2, const Index& inverse_n2, const Index& w2,
+                                  const T& k0_d, Polarised<V>& s, Polarised<V>& p,
                 V& decay) {
     Index x;
     if constexpr (std::is_same_v<Index, V>)
@@ -176,10 +177,10 @@ GHOSTLIGHT_INLINE void pass_layer(const Index& n2, const Index& w2, const T& k0_
     };
     if constexpr (std::is_same_v<Index, V>) {
         advance(s, step, w2 * step);
-        advance(p, V(n2 * step), V(w2 / n2 * step));
+        advance(p, V(n2 * step), V(w2 * inverse_n2 * step));
     } else {
         advance(s, step, w2 * step);
-        advance(p, n2 * step, quotient(w2, n2) * step);
+        advance(p, n2 * step, w2 * inverse_n2 * step);
     }
 }
 
@@ -187,11 +188,13 @@ template <class V>
 GHOSTLIGHT_INLINE void amplitudes_of(const Polarised<V>& f, const V& y0, const V& y_exit_re, const V& decay_factor,
                    Complex<V>& r, Complex<V>& t) {
     const Complex<V> yb = y0 * f.b;
-    const Complex<V> sum = yb + f.c;
-    r = quotient(yb - f.c, sum);
+    const Complex<V> sum = yb + f.c, difference = yb - f.c;
+    const V inverse = Lane<V>(1) / norm(sum);
+    r = {(difference.re * sum.re + difference.im * sum.im) * inverse,
+         (difference.im * sum.re - difference.re * sum.im) * inverse};
     // 2 sqrt(y0 Re y_exit)/(y0 B + C): finite at grazing, where y0 is 0.
-    const V scale = Lane<V>(2) * sqrt_or_zero(V(y0 * y_exit_re)) * decay_factor;
-    t = quotient(Complex<V>{scale, V(Lane<V>(0))}, sum);
+    const V scale = Lane<V>(2) * sqrt_or_zero(V(y0 * y_exit_re)) * decay_factor * inverse;
+    t = {scale * sum.re, -scale * sum.im};
 }
 
 }  // namespace detail
@@ -220,9 +223,11 @@ GHOSTLIGHT_INLINE Amplitudes<V> film_amplitudes(const T& n_in, const LayerAt<T>*
         if constexpr (Absorbing) {
             const Complex<V> n2{V(layer.n2_re), V(layer.n2_im)};
             const Complex<V> layer_w2{V(layer.n2_re - q2), V(layer.n2_im)};
-            detail::pass_layer(n2, layer_w2, layer.k0_d, s, p, decay);
+            const Complex<V> inverse = quotient(Complex<V>{one, zero}, n2);
+            detail::pass_layer(n2, inverse, layer_w2, layer.k0_d, s, p, decay);
         } else {
-            detail::pass_layer(V(layer.n2_re), V(layer.n2_re - q2), layer.k0_d, s, p, decay);
+            detail::pass_layer(V(layer.n2_re), V(T(1) / layer.n2_re), V(layer.n2_re - q2),
+                               layer.k0_d, s, p, decay);
         }
     }
     V decay_factor = one;

@@ -16,11 +16,13 @@ struct TraceStep {
     T curvature, conic;
     T inverse_clear;    ///< 1 / semi-diameter
     T n_in, n_out;      ///< along travel; n_out is the far side's also where the ray reflects
+    T eta;              ///< n_in / n_out
     T sense;            ///< nominal direction of travel before the event, ±1
     int first_aspheric, aspheric_count;
     int first_layer, layer_count;
     int surface;
     bool reflects, at_stop, absorbing, invisible;
+    bool spherical;  ///< or plane: the normal comes out with unit length
 };
 
 /// A lens unfolded along one path, ready to trace.
@@ -48,6 +50,8 @@ TracePath<T> trace_path(const OpticalSystem& system, const GhostPath& ghost) {
         step.inverse_clear = T(1.0 / surface.semi_diameter_mm);
         step.n_in = T(film.n_in);
         step.n_out = T(film.n_out);
+        step.eta = T(film.n_in / film.n_out);
+        step.spherical = surface.conic == 0.0 && surface.aspheric.empty();
         step.sense = T(event.forward ? 1.0 : -1.0);
         step.first_aspheric = static_cast<int>(path.aspheric.size());
         step.aspheric_count = static_cast<int>(surface.aspheric.size());

@@ -156,6 +156,13 @@ GHOSTLIGHT_INLINE Meeting<V> meet(const TraceStep<T>& step, const T* aspheric, R
     meeting.normal = Vec3<V>(V(-c * q.x), V(-c * q.y), meeting.hemisphere_margin);
     if (step.aspheric_count > 0)
         detail::refine_asphere(step, aspheric + step.first_aspheric, ray, meeting);
+    if (step.spherical) {
+        // The root is the cosine of incidence, and the normal already has unit length.
+        meeting.cos_incidence = smaller(V(L(1)), root);
+        meeting.normal = Vec3<V>(V(sense * meeting.normal.x), V(sense * meeting.normal.y),
+                                 V(sense * meeting.normal.z));
+        return meeting;
+    }
     const V projected = dot(meeting.normal, d);
     const V length = sqrt(dot(meeting.normal, meeting.normal));
     const V inverse = select(projected < V(L(0)), V(L(-1)), V(L(1))) / length;
@@ -170,7 +177,7 @@ template <class V, class T>
 GHOSTLIGHT_INLINE V turn(const TraceStep<T>& step, const Meeting<V>& meeting, RayAt<V>& ray) {
     using L = Lane<V>;
     const V& cos1 = meeting.cos_incidence;
-    const T eta = step.n_in / step.n_out;
+    const T eta = step.eta;
     const V cos2_squared = L(1) - eta * eta * (L(1) - cos1 * cos1);
     if (step.reflects) {
         ray.direction = along(ray.direction, meeting.normal, V(L(-2) * cos1));
