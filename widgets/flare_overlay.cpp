@@ -23,11 +23,14 @@ constexpr double arrow_length_px = 12.0, arrow_half_width_px = 6.0;
 constexpr double readout_offset_px = 16.0, readout_padding_px = 8.0;
 constexpr double under_px = 4.0;  // a dark line under the amber one keeps it visible on white
 
+/// Over a picture that is dark in either theme.
+QColor light_color() { return dark_palette().amber; }
+
 void paint_ring(QPainter& painter, QPointF at) {
     painter.setBrush(Qt::NoBrush);
     painter.setPen(QPen(QColor(0, 0, 0, 150), under_px));
     painter.drawEllipse(at, ring_radius_px, ring_radius_px);
-    painter.setPen(QPen(current_palette().amber, 1.75));
+    painter.setPen(QPen(light_color(), 1.75));
     painter.drawEllipse(at, ring_radius_px, ring_radius_px);
 }
 
@@ -50,7 +53,7 @@ void paint_arrow(QPainter& painter, QPointF center, QPointF light, QSizeF view_p
     const QPointF tail = tip - along * arrow_length_px;
     const QPolygonF arrow{{tip, tail + across * arrow_half_width_px, tail + along * 3.0,
                            tail - across * arrow_half_width_px}};
-    painter.setBrush(current_palette().amber);
+    painter.setBrush(light_color());
     painter.setPen(QPen(QColor(0, 0, 0, 150), 1.5));
     painter.drawPolygon(arrow);
 
@@ -64,7 +67,7 @@ void paint_arrow(QPainter& painter, QPointF center, QPointF light, QSizeF view_p
     painter.setPen(Qt::NoPen);
     painter.setBrush(QColor(0, 0, 0, 150));
     painter.drawRoundedRect(box.adjusted(-4.0, -1.0, 4.0, 1.0), 3.0, 3.0);
-    painter.setPen(current_palette().amber);
+    painter.setPen(light_color());
     painter.drawText(box, Qt::AlignCenter, label);
 }
 

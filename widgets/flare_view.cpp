@@ -32,6 +32,9 @@ std::array<float, 3> floats(const QColor& color) {
     return {color.redF(), color.greenF(), color.blueF()};
 }
 
+/// A picture is judged against a dark, neutral surround in either theme.
+Palette picture_palette() { return dark_palette(); }
+
 double length(QPointF p) { return std::hypot(p.x(), p.y()); }
 
 }  // namespace
@@ -94,8 +97,8 @@ void FlareView::paint_gl(unsigned, int width_px, int height_px) {
         }
         PictureLook look;
         look.exposure_ev = exposure_ev_;
-        look.surround = floats(current_palette().ground);
-        look.highlight = floats(current_palette().teal);
+        look.surround = floats(picture_palette().ground);
+        look.highlight = floats(picture_palette().teal);
         const double ratio = width_px / std::max(1.0, static_cast<double>(width()));
         renderer_->draw(image_ ? upload_->texture() : PictureTexture{}, frame().scaled(ratio), look,
                         width_px, height_px);
@@ -105,8 +108,9 @@ void FlareView::paint_gl(unsigned, int width_px, int height_px) {
 }
 
 void FlareView::paint_without_gl(QPainter& painter) {
-    painter.fillRect(rect(), current_palette().ground);
+    painter.fillRect(rect(), picture_palette().ground);
     if (!image_) {
+        paint_overlay(painter);
         return;
     }
     const PictureFrame now = frame();
@@ -114,19 +118,20 @@ void FlareView::paint_without_gl(QPainter& painter) {
                       software_frame_ == now && software_picture_.size() == size();
     if (!same) {
         software_picture_ = software_picture(*image_, now, size(), exposure_ev_,
-                                             current_palette().ground, current_palette().teal);
+                                             picture_palette().ground, picture_palette().teal);
         software_exposure_ev_ = exposure_ev_;
         software_frame_ = now;
     }
     painter.drawImage(0, 0, software_picture_);
-    painter.setPen(current_palette().dim);
+    painter.setPen(picture_palette().dim);
     painter.drawText(rect().adjusted(8, 6, -8, -6), Qt::AlignLeft | Qt::AlignBottom,
                      tr("drawn without OpenGL: %1").arg(gl_failure()));
+    paint_overlay(painter);
 }
 
 void FlareView::paint_overlay(QPainter& painter) {
     if (!image_) {
-        painter.setPen(current_palette().dim);
+        painter.setPen(picture_palette().dim);
         painter.drawText(
             rect().adjusted(16, 16, -16, -16), Qt::AlignCenter | Qt::TextWordWrap,
             awaits_picture_

@@ -189,7 +189,6 @@ void GlView::paintEvent(QPaintEvent*) {
     QPainter painter(this);
     painter.setRenderHints(QPainter::Antialiasing | QPainter::TextAntialiasing);
     paint_without_gl(painter);
-    paint_overlay(painter);
 }
 
 }  // namespace ghostlight

@@ -37,8 +37,9 @@ class GlView : public QWidget {
     virtual void paint_gl(unsigned framebuffer, int width_px, int height_px) = 0;
     /// With the context current, before it goes.
     virtual void release_gl() = 0;
-    /// Drawn over both; in logical pixels.
+    /// Drawn over that; in logical pixels.
     virtual void paint_overlay(QPainter& painter) = 0;
+    /// In place of both.
     virtual void paint_without_gl(QPainter& painter) = 0;
 
     /// Stops using OpenGL for good. To be called from init_gl() or paint_gl().

@@ -176,7 +176,8 @@ void LayoutActors::show_lens(const LensDrawing& drawing, const Palette& colors) 
     for (Shape* shape : {&glass, &outlines, &hard}) {
         shape->begin();
     }
-    const QColor edge = mixed(colors.panel, QColor(0x9f, 0xb6, 0xc6), 0.80);
+    const QColor edge =
+        mixed(mixed(colors.panel, colors.text, 0.55), QColor(0x6f, 0xa6, 0xc6), 0.35);
     for (const GlassElement& element : drawing.elements) {
         add_glass(glass, element, glass_tint(element.n, colors));
         outlines.add_line(element.outline, outline_layer, edge, true);

@@ -61,7 +61,8 @@ void VtkView::paint_without_gl(QPainter& painter) {
     const Palette& colors = current_palette();
     painter.fillRect(rect(), colors.panel);
     painter.setPen(colors.dim);
-    painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap, gl_failure());
+    painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap,
+                     tr("There is no picture here: %1.").arg(gl_failure()));
 }
 
 }  // namespace ghostlight

@@ -16,12 +16,24 @@ FlareImage flat(float value) {
     return image;
 }
 
-TEST(AutoExposure, PutsAFlatPictureAtTheEndOfTheLinearRange) {
+constexpr double third = 1.0 / 3.0;
+
+TEST(AutoExposure, ShowsAnEvenVeilAsMiddleGrey) {
     const double ev = auto_exposure_ev(flat(1e-4F));
     const double shown = 1e-4 * std::exp2(ev);
-    EXPECT_LE(shown, 0.8 * (1.0 + 1e-6));
-    EXPECT_GT(shown, 0.8 / std::exp2(1.0 / 3.0) * (1.0 - 1e-6));
+    EXPECT_LE(shown, 0.18 * (1.0 + 1e-6));
+    EXPECT_GT(shown, 0.18 / std::exp2(third) * (1.0 - 1e-6));
     EXPECT_NEAR(ev * 3.0, std::round(ev * 3.0), 1e-9) << "whole thirds of a stop";
+}
+
+TEST(AutoExposure, PutsBrightGhostsAtTheEndOfTheLinearRange) {
+    FlareImage image = flat(1e-6F);
+    for (std::size_t i = 0; i < 3 * 100; ++i) {
+        image.rgb[i] = 1e-3F;  // a tenth of the picture
+    }
+    const double shown = 1e-3 * std::exp2(auto_exposure_ev(image));
+    EXPECT_LE(shown, 0.8 * (1.0 + 1e-6));
+    EXPECT_GT(shown, 0.8 / std::exp2(third) * (1.0 - 1e-6));
 }
 
 TEST(AutoExposure, DoesNotFollowAFewBrightPixels) {

@@ -31,7 +31,7 @@ class FlarePanel : public QWidget {
     /// Exposure in stops; 0 shows an irradiance of E0 as white.
     void set_exposure_ev(double exposure_ev);
     double exposure_ev() const;
-    /// Exposes so that all but the brightest per cent of the lit picture is below white.
+    /// Exposes by the picture itself: see auto_exposure_ev().
     void auto_expose();
     /// Dims the header's state while the picture is older than the lens it belongs to.
     void set_dimmed(bool stale);
