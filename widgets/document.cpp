@@ -28,6 +28,9 @@ Document::Document(QObject* parent) : QObject(parent) {
     connect(&history_, &QUndoStack::indexChanged, this, &Document::file_changed);
 }
 
+// A history that goes empties itself and says so; whoever listens may be gone already.
+Document::~Document() { history_.disconnect(); }
+
 Prescription Document::configured_lens() const {
     return configured(state_.lens, state_.scene.configuration);
 }

@@ -28,6 +28,7 @@ class Document : public QObject {
     Q_OBJECT
    public:
     explicit Document(QObject* parent = nullptr);
+    ~Document() override;
 
     const DocumentState& state() const { return state_; }
     const Prescription& lens() const { return state_.lens; }

@@ -27,7 +27,7 @@ constexpr std::array<ColumnText, GhostTableModel::column_count> columns = {{
     {"Flux mm²", "flux_mm2", "flux",
      "Effective collecting area: the ghost's flux over the light's irradiance E0,\n"
      "polarisation carried along the path."},
-    {"", "", "flux", "Flux on a logarithmic scale, six decades below the strongest ghost."},
+    {"", "", "flux", "Flux on a logarithmic scale, four decades below the strongest ghost."},
     {"Rel.", "relative_flux", "relative flux", "Flux over that of the direct image."},
     {"Peak E0", "peak_per_e0", "peak",
      "Largest mean irradiance over a cell of sensor width / 1280, in units of E0."},
@@ -43,7 +43,7 @@ constexpr std::array<ColumnText, GhostTableModel::column_count> columns = {{
     {"Rays", "rays", "rays", "Rays traced for this row's numbers."},
 }};
 
-constexpr double bar_decades = 6.0;
+constexpr double bar_decades = 4.0;
 
 }  // namespace
 

@@ -3,7 +3,6 @@
 #include <QBrush>
 #include <QFont>
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -85,34 +84,22 @@ int PrescriptionModel::columnCount(const QModelIndex& parent) const {
 void PrescriptionModel::follow_document() {
     const Prescription& lens = document_.lens();
     configuration_ = document_.scene().configuration;
-    const auto before = static_cast<int>(shown_.surfaces.size());
-    const auto after = static_cast<int>(lens.surfaces.size());
-    // Rows are taken to appear and go above what the ends of both lists have in common, so that a
-    // view keeps its place.
-    const auto common = std::mismatch(shown_.surfaces.rbegin(), shown_.surfaces.rend(),
-                                      lens.surfaces.rbegin(), lens.surfaces.rend());
-    const auto same = static_cast<int>(common.first - shown_.surfaces.rbegin());
-    if (after > before) {
-        const int first = std::max(0, before - same);
-        beginInsertRows({}, first, first + after - before - 1);
-        shown_ = lens;
-        endInsertRows();
-    } else if (after < before) {
-        const int first = std::max(0, after - same);
-        beginRemoveRows({}, first, first + before - after - 1);
-        shown_ = lens;
-        endRemoveRows();
-    } else {
-        shown_ = lens;
+    // Every row's number changes below an insertion, so that no row is just where it was, moved.
+    const bool other_rows = shown_.surfaces.size() != lens.surfaces.size();
+    if (other_rows) {
+        beginResetModel();
     }
+    shown_ = lens;
     chips_.clear();
     for (std::size_t row = 0; row < shown_.surfaces.size(); ++row) {
         const Surface& surface = shown_.surfaces[row];
         chips_.push_back(coating_color(medium_before(shown_, row), surface.coating,
                                        surface.medium_after, document_.scene().spectrum));
     }
-    if (after > 0) {
-        Q_EMIT dataChanged(index(0, 0), index(after - 1, column_count - 1));
+    if (other_rows) {
+        endResetModel();
+    } else if (rowCount() > 0) {
+        Q_EMIT dataChanged(index(0, 0), index(rowCount() - 1, column_count - 1));
     }
 }
 

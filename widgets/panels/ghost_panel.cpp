@@ -239,8 +239,10 @@ void GhostPanel::show_state() {
     const int listed = filter_->rowCount();
     QString state =
         listed == all ? QString::number(all) : QStringLiteral("%1 of %2").arg(listed).arg(all);
-    state += QStringLiteral(" · by %1")
-                 .arg(sorted_by(table_->horizontalHeader()->sortIndicatorSection()));
+    const QHeaderView* order = table_->horizontalHeader();
+    state += QStringLiteral(" · by %1 %2")
+                 .arg(sorted_by(order->sortIndicatorSection()),
+                      order->sortIndicatorOrder() == Qt::DescendingOrder ? "▾" : "▴");
     if (is_refining()) {
         state += progress_ > 0.0 ? QStringLiteral(" · refining %1 %").arg(qRound(progress_ * 100.0))
                                  : QStringLiteral(" · refining");

@@ -81,6 +81,14 @@ PrescriptionPanel::PrescriptionPanel(Document& document, const Actions& actions,
             &PrescriptionPanel::show_reason);
     connect(model_, &PrescriptionModel::refused, this,
             [this](const QModelIndex&, const QString& reason) { show_reason(reason); });
+    // The cell in hand stays in hand when rows come and go.
+    connect(model_, &QAbstractItemModel::modelAboutToBeReset, this,
+            [this] { kept_row_ = current_row(); });
+    connect(model_, &QAbstractItemModel::modelReset, this, [this] {
+        if (kept_row_ >= 0) {
+            go_to(std::min(kept_row_, model_->rowCount() - 1));
+        }
+    });
     connect(table_->selectionModel(), &QItemSelectionModel::currentChanged, this,
             [this] { show_reason({}); });
     connect(table_, &QWidget::customContextMenuRequested, this,
@@ -174,8 +182,8 @@ QString PrescriptionPanel::reason() const { return reason_->text(); }
 int PrescriptionPanel::current_row() const { return table_->currentIndex().row(); }
 
 void PrescriptionPanel::go_to(int row) {
-    const int column = std::max<int>(table_->currentIndex().column(), PrescriptionModel::radius);
-    table_->setCurrentIndex(model_->index(row, column));
+    const int column = table_->currentIndex().column();
+    table_->setCurrentIndex(model_->index(row, std::max<int>(column, PrescriptionModel::radius)));
 }
 
 void PrescriptionPanel::set_hovered_row(int row) { model_->set_marked_row(row - 1); }

@@ -41,6 +41,7 @@ class PrescriptionPanel : public QWidget {
     QTableView* table_;
     QLabel* reason_;
     QStackedWidget* pages_;
+    int kept_row_ = -1;  ///< while the rows are replaced
 };
 
 }  // namespace ghostlight

@@ -11,6 +11,7 @@ namespace ghostlight {
 namespace {
 
 constexpr int margin = 6;
+constexpr int first_margin = 12;  // in line with the panel's title
 constexpr int chip = 12;
 constexpr int bar_height = 10;
 constexpr int bar_width = 64;
@@ -54,7 +55,7 @@ void TableDelegate::paint(QPainter* painter, const QStyleOptionViewItem& option,
 
     const bool stale = stale_role_ >= 0 && index.data(stale_role_).toBool();
     const QVariant bar = bar_role_ >= 0 ? index.data(bar_role_) : QVariant();
-    QRect inside = option.rect.adjusted(margin, 0, -margin, 0);
+    QRect inside = option.rect.adjusted(index.column() == 0 ? first_margin : margin, 0, -margin, 0);
     if (bar.isValid()) {
         QRect box(inside.left(), inside.center().y() - bar_height / 2 + 1,
                   std::max(2, static_cast<int>(inside.width() * bar.toDouble())), bar_height);
@@ -83,6 +84,9 @@ void TableDelegate::paint(QPainter* painter, const QStyleOptionViewItem& option,
 QSize TableDelegate::sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const {
     const QString text = index.data(Qt::DisplayRole).toString();
     int width = tabular_width(option.font, text) + 2 * margin + 2;
+    if (index.column() == 0) {
+        width += first_margin - margin;
+    }
     if (index.data(Qt::DecorationRole).isValid()) {
         width += chip + margin;
     }

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <QTest>
+
+#include <filesystem>
+#include <string>
+
+#include "core/io/lens_file.h"
+#include "widgets/main_window.h"
+#include "widgets/snapshot.h"
+
+namespace ghostlight::test {
+
+/// The largest bundled lens on a busy machine.
+inline constexpr int patience_ms = 240'000;
+
+inline std::filesystem::path bundled(const std::string& file) {
+    return std::filesystem::path(GHOSTLIGHT_LENS_DIR) / file;
+}
+
+inline std::filesystem::path tessar() { return bundled("tessar_brendel_100_f2.8.json"); }
+
+/// A shown window that keeps nothing, with a loose tolerance: these tests are about the window.
+struct OpenWindow {
+    explicit OpenWindow(const std::filesystem::path& lens = {}) {
+        window.resize(1400, 860);
+        window.show();
+        EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
+        if (!lens.empty()) {
+            EXPECT_TRUE(window.open(lens));
+            loosen();
+        }
+    }
+    void loosen() {
+        Scene scene = window.document().scene();
+        scene.tolerance = 0.5;
+        window.document().edit_scene(scene, "change tolerance", "tolerance");
+    }
+    bool settle() { return wait_until_settled(window, patience_ms); }
+
+    MainWindow window{false};
+};
+
+}  // namespace ghostlight::test
