@@ -15,6 +15,7 @@ namespace {
 constexpr int band_rows = 16;
 constexpr int probe_cells = 8;
 constexpr int split_cells = 4;
+constexpr double smooth_enough = 0.01;  ///< roughness of weights that may be interpolated
 
 using Clock = std::chrono::steady_clock;
 double ms_since(Clock::time_point began) {
@@ -73,24 +74,62 @@ void add_band(const BandedMesh& banded, std::size_t band, BandRaster& raster) {
     }
 }
 
-/// Flux with the polarisation carried over flux with the average at each surface.
-double polarised_gain(const OpticalSystem& system, const GhostPath& ghost, const BeamFrame& frame,
-                      const PupilBox& box) {
-    SplitGrid<float> grid = trace_grid(system, trace_path<float>(system, ghost), frame, box,
-                                       probe_cells, split_cells, Weights::polarised);
-    auto flux = [&] {
-        double sum = 0.0;
-        for_each_piece(grid, [&](const BundleGrid<float>&, const Piece& piece) {
-            sum += flux_mm2(piece);
-        });
-        return sum;
+/// How far the weights of a probe's odd nodes are from the mean of their even neighbours, flux for
+/// flux: about four times the error of interpolating the probe bilinearly.
+double roughness(const RayField<float>& probe) {
+    constexpr int side = probe_cells + 1;
+    double change = 0.0, sum = 0.0;
+    auto passes = [&](std::size_t node) {
+        return std::ranges::all_of(probe.clearances, [&](const auto& c) { return c[node] >= 0.0F; });
     };
-    const double polarised = flux();
-    std::swap(grid.base.field.rays.weight, grid.base.field.rays.weight_average);
-    for (BundleGrid<float>& split : grid.splits)
-        std::swap(split.field.rays.weight, split.field.rays.weight_average);
-    const double average = flux();
-    return average > 0.0 ? polarised / average : 1.0;
+    for (int j = 0; j < side; j += 2)
+        for (int i = 1; i < side; i += 2)
+            for (const bool along_u : {true, false}) {
+                const int step = along_u ? 1 : side;
+                const auto node = static_cast<std::size_t>(along_u ? j * side + i : i * side + j);
+                const auto before = node - static_cast<std::size_t>(step);
+                const auto after = node + static_cast<std::size_t>(step);
+                if (!passes(before) || !passes(node) || !passes(after)) continue;
+                const auto& w = probe.rays.weight;
+                change += std::abs(static_cast<double>(w[node]) -
+                                   0.5 * static_cast<double>(w[before] + w[after]));
+                sum += static_cast<double>(w[node]);
+            }
+    return sum > 0.0 ? change / sum : 1.0;
+}
+
+/// Gives the nodes of a grid that was traced without weights the polarised weights of a coarser
+/// one, bilinearly: films vary slowly over the pupil, and cost more than the geometry.
+void fill_weights(const RayField<float>& probe, BundleGrid<float>& grid) {
+    constexpr int side = probe_cells + 1;
+    // Failed rays take the mean of their neighbours, so that edges are not darkened.
+    std::vector<float> known(probe.rays.weight);
+    for (int j = 0; j < side; ++j)
+        for (int i = 0; i < side; ++i) {
+            if (probe.rays.margin[static_cast<std::size_t>(j * side + i)] >= 0.0F) continue;
+            float sum = 0.0F;
+            int count = 0;
+            for (int n = std::max(0, j - 1); n <= std::min(side - 1, j + 1); ++n)
+                for (int m = std::max(0, i - 1); m <= std::min(side - 1, i + 1); ++m) {
+                    const auto node = static_cast<std::size_t>(n * side + m);
+                    if (probe.rays.margin[node] < 0.0F) continue;
+                    sum += probe.rays.weight[node];
+                    ++count;
+                }
+            if (count > 0) known[static_cast<std::size_t>(j * side + i)] = sum / static_cast<float>(count);
+        }
+    auto at = [&](int i, int j) { return known[static_cast<std::size_t>(j * side + i)]; };
+    for (int j = 0; j <= grid.cells; ++j)
+        for (int i = 0; i <= grid.cells; ++i) {
+            const float x = static_cast<float>(i * probe_cells) / static_cast<float>(grid.cells);
+            const float y = static_cast<float>(j * probe_cells) / static_cast<float>(grid.cells);
+            const int i0 = std::min(static_cast<int>(x), probe_cells - 1);
+            const int j0 = std::min(static_cast<int>(y), probe_cells - 1);
+            const float fx = x - static_cast<float>(i0), fy = y - static_cast<float>(j0);
+            grid.field.rays.weight[static_cast<std::size_t>(j * (grid.cells + 1) + i)] =
+                std::lerp(std::lerp(at(i0, j0), at(i0 + 1, j0), fx),
+                          std::lerp(at(i0, j0 + 1), at(i0 + 1, j0 + 1), fx), fy);
+        }
 }
 
 }  // namespace
@@ -120,8 +159,8 @@ std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequ
     std::vector<Pupil> pupils(tasks);
     bool finished = parallel_for(tasks, request.threads, stop, [&](std::size_t t) {
         const OpticalSystem& system = systems[t % samples.size()];
-        pupils[t] =
-            find_pupil(system, trace_path<double>(system, ghosts[t / samples.size()]), frame);
+        pupils[t] = find_pupil(system, trace_path<float>(system, ghosts[t / samples.size()]), frame,
+                               PupilSearch::quick);
     });
     if (!finished) return std::nullopt;
     image.times.bounds_ms = ms_since(began);
@@ -132,11 +171,17 @@ std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequ
         if (pupils[t].empty()) return;
         const OpticalSystem& system = systems[t % samples.size()];
         const GhostPath& ghost = ghosts[t / samples.size()];
-        const double gain = polarised_gain(system, ghost, frame, pupils[t].box);
-        const auto grid = trace_grid(system, trace_path<float>(system, ghost), frame,
-                                     pupils[t].box, request.grid, split_cells, Weights::average);
-        meshes[t].mesh = ghost_mesh(grid, pixels, gain);
-        meshes[t].rays = grid.rays();
+        const TracePath<float> path = trace_path<float>(system, ghost);
+        Bundle<float> points;
+        lay_grid(pupils[t].box, probe_cells, points);
+        const auto probe =
+            trace_field(system, path, frame, std::move(points), Weights::polarised);
+        const bool smooth = roughness(probe) < smooth_enough;
+        auto grid = trace_grid(system, path, frame, pupils[t].box, request.grid, split_cells,
+                               smooth ? Weights::none : Weights::polarised);
+        if (smooth) fill_weights(probe, grid.base);
+        meshes[t].mesh = ghost_mesh(grid, pixels, 1.0);
+        meshes[t].rays = grid.rays() + probe.rays.size();
         sort_into_bands(meshes[t], pixels, bands);
     });
     if (!finished) return std::nullopt;

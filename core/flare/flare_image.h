@@ -43,8 +43,8 @@ struct FlareImage {
 };
 
 /// Traces every two-reflection ghost in uniform bundles and accumulates them with exact pixel
-/// coverage, so that flux is conserved and folded sheets add. The polarised flux of each ghost is
-/// carried exactly. Bit-identical for any number of threads. Returns nothing when stopped.
+/// coverage, so that flux is conserved and folded sheets add. The polarisation is carried, on a
+/// coarser grid where the weights are smooth. Bit-identical for any number of threads. Returns nothing when stopped.
 std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequest& request,
                                        std::stop_token stop = {});
 

@@ -40,6 +40,12 @@ struct SpectralSample {
 /// midpoints over 400–700 nm.
 std::vector<SpectralSample> sample(const Spectrum& spectrum, int count);
 
+/// Clenshaw–Curtis nodes over 400–700 nm with weights that integrate the light's own power times
+/// a polynomial of degree `count` − 1 exactly, so that only what the lens does with the light has
+/// to be smooth. The nodes of 2n − 1 contain those of n: count = 5, 9, 17, … refine one another.
+/// Weights sum to 1. One node for a single wavelength.
+std::vector<SpectralSample> nested_samples(const Spectrum& spectrum, int count);
+
 struct Rgb {
     double r = 0.0, g = 0.0, b = 0.0;
 };

@@ -49,7 +49,7 @@ template <int mode, class T>
 GHOSTLIGHT_INLINE void pass(const BundleView<T>& b, std::size_t i, const TraceStep<T>& step,
                             int crossing, int reflection, Packet<Lanes<T>>& p) {
     using V = Lanes<T>;
-    const Meeting<V> meeting = meet(step, b.aspheric, p.ray);
+    const Meeting<V> meeting = meet(step, b.aspheric, p.margin, p.ray);
     p.margin = smaller(p.margin, smaller(meeting.turned_margin,
                                          smaller(meeting.miss_margin, meeting.hemisphere_margin)));
     const Vec3<V>& at = p.ray.position;

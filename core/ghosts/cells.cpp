@@ -83,9 +83,10 @@ SplitGrid<T> trace_grid(const OpticalSystem& system, const TracePath<T>& path,
         auto u = [&](int i) { return std::lerp(box.u0_mm, box.u1_mm, static_cast<double>(i) / cells); };
         auto v = [&](int j) { return std::lerp(box.v0_mm, box.v1_mm, static_cast<double>(j) / cells); };
         const int i = cell % cells, j = cell / cells;
+        const Weights own = weights == Weights::none ? Weights::polarised : weights;
         grid.split_of_cell[static_cast<std::size_t>(cell)] = static_cast<int>(grid.splits.size());
         grid.splits.push_back(trace_cells(system, path, frame,
-                                          {u(i), u(i + 1), v(j), v(j + 1)}, split_cells, weights));
+                                          {u(i), u(i + 1), v(j), v(j + 1)}, split_cells, own));
     }
     return grid;
 }

@@ -77,7 +77,8 @@ struct SplitGrid {
     }
 };
 
-/// Traces a box on cells × cells, and its singular cells on split_cells × split_cells each.
+/// Traces a box on cells × cells, and its singular cells on split_cells × split_cells each; the
+/// latter always with a weight, polarised if `weights` is none.
 template <class T>
 SplitGrid<T> trace_grid(const OpticalSystem& system, const TracePath<T>& path,
                         const BeamFrame& frame, const PupilBox& box, int cells, int split_cells,

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "core/flare/raster.h"
@@ -14,14 +15,14 @@ namespace ghostlight {
 namespace {
 
 constexpr int peak_width_px = 1280;
-constexpr int fewest_bands = 5;  ///< spectral midpoints; tripled until they agree
-constexpr int most_bands = 45;
+constexpr int fewest_nodes = 5;  ///< of the spectrum; refined until two sets agree
+constexpr int most_nodes = 33;
 constexpr double faint_share = 1e-6;  ///< of the strongest ghost: nothing is refined below it
 
 /// One path over the spectrum.
 struct PathOverSpectrum {
     std::map<double, PathFlux> at;  ///< by wavelength, nm
-    int bands = 1;
+    int nodes = 1;
     FluxSums sums;
     double error_mm2 = 0.0;
 };
@@ -65,8 +66,8 @@ class TableBuilder {
           frame_(beam_frame(request.light)),
           monochromatic_(std::holds_alternative<Monochromatic>(request.spectrum)) {
         // All that could be asked for, so that threads only read.
-        for (int bands = first_bands(); bands <= last_bands(); bands *= 3)
-            for (const SpectralSample& s : sample(request.spectrum, bands))
+        for (int nodes = first_nodes(); nodes <= last_nodes(); nodes = next(nodes))
+            for (const SpectralSample& s : nested_samples(request.spectrum, nodes))
                 if (!systems_.contains(s.wavelength_nm))
                     systems_.emplace(s.wavelength_nm, compile(lens, s.wavelength_nm));
         const OpticalSystem& any = systems_.begin()->second;
@@ -103,7 +104,7 @@ class TableBuilder {
         GhostTable table;
         for (const GhostRow& r : rows) table.rays += r.rays;
         const double image = rows.front().flux_mm2;
-        for (GhostRow& r : rows) r.relative_flux = image > 0.0 ? r.flux_mm2 / image : 0.0;
+        for (GhostRow& r : rows) r.relative_flux = image > 0.0 ? r.flux_mm2 / image : std::numeric_limits<double>::quiet_NaN();
         table.direct = rows.front();
         table.ghosts.assign(rows.begin() + 1, rows.end());
         std::ranges::stable_sort(table.ghosts, [](const GhostRow& a, const GhostRow& b) {
@@ -124,18 +125,20 @@ class TableBuilder {
     std::vector<GhostPath> paths_;             ///< the direct path first
     PixelFrame pixels_;
 
-    int first_bands() const { return monochromatic_ ? 1 : fewest_bands; }
-    int last_bands() const { return monochromatic_ ? 1 : most_bands; }
+    /// Two refinements of one another; a single wavelength has one node and no next.
+    static int next(int nodes) { return 2 * nodes - 1 + (nodes == 1 ? 1 : 0); }
+    int first_nodes() const { return monochromatic_ ? 1 : fewest_nodes; }
+    int last_nodes() const { return monochromatic_ ? 1 : most_nodes; }
 
     PathQuadrature quadrature(const GhostPath& ghost, double wavelength_nm) const {
         return {systems_.at(wavelength_nm), ghost, frame_};
     }
 
-    void sum_up(PathOverSpectrum& path, int bands) const {
-        path.bands = bands;
+    void sum_up(PathOverSpectrum& path, int nodes) const {
+        path.nodes = nodes;
         path.sums = {};
         path.error_mm2 = 0.0;
-        for (const SpectralSample& s : sample(request_.spectrum, bands)) {
+        for (const SpectralSample& s : nested_samples(request_.spectrum, nodes)) {
             const PathFlux& at = path.at.at(s.wavelength_nm);
             path.sums += s.weight * at.sums;
             path.error_mm2 += s.weight * at.error_mm2;
@@ -143,9 +146,9 @@ class TableBuilder {
     }
 
     void start(PathOverSpectrum& path, const GhostPath& ghost) const {
-        for (const SpectralSample& s : sample(request_.spectrum, first_bands()))
+        for (const SpectralSample& s : nested_samples(request_.spectrum, first_nodes()))
             path.at[s.wavelength_nm] = quadrature(ghost, s.wavelength_nm).start();
-        sum_up(path, first_bands());
+        sum_up(path, first_nodes());
     }
 
     /// Pupil and spectrum share what is allowed in halves.
@@ -154,17 +157,17 @@ class TableBuilder {
         const double part = monochromatic_ ? 1.0 : 0.5;
         const double share = part * request_.tolerance;
         double spectral_error = 0.0, before = 0.0;
-        for (int bands = first_bands(); bands <= last_bands(); bands *= 3) {
-            for (const SpectralSample& s : sample(request_.spectrum, bands)) {
+        for (int nodes = first_nodes(); nodes <= last_nodes(); nodes = next(nodes)) {
+            for (const SpectralSample& s : nested_samples(request_.spectrum, nodes)) {
                 const PathQuadrature at_nm = quadrature(ghost, s.wavelength_nm);
                 auto [entry, is_new] = path.at.try_emplace(s.wavelength_nm);
                 if (is_new) entry->second = at_nm.start();
                 at_nm.refine(entry->second, share, part * floor_mm2, stop);
             }
-            sum_up(path, bands);
+            sum_up(path, nodes);
             spectral_error = std::abs(path.sums.flux - before);
             before = path.sums.flux;
-            const bool compared = bands > first_bands();
+            const bool compared = nodes > first_nodes();
             if (compared && spectral_error <= std::max(share * before, part * floor_mm2)) break;
         }
         if (!monochromatic_) path.error_mm2 += spectral_error;
@@ -189,7 +192,7 @@ class TableBuilder {
         }
         if (request_.peaks && sums.on_sensor > 0.0) {
             std::vector<GhostMesh> meshes;
-            for (const SpectralSample& s : sample(request_.spectrum, path.bands))
+            for (const SpectralSample& s : nested_samples(request_.spectrum, path.nodes))
                 meshes.push_back(quadrature(ghost, s.wavelength_nm)
                                      .mesh(path.at.at(s.wavelength_nm), pixels_, s.weight));
             r.peak_per_e0 = peak_of(meshes, pixels_);

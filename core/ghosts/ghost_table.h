@@ -30,7 +30,7 @@ struct GhostRow {
     GhostPath path;
     double flux_mm2 = 0.0;        ///< polarisation carried
     double flux_error_mm2 = 0.0;  ///< the quadrature's own estimate, absolute
-    double relative_flux = 0.0;   ///< over the direct path's flux
+    double relative_flux = 0.0;   ///< over the direct path's flux; NaN when that is 0
     double peak_per_e0 = 0.0;     ///< largest mean irradiance over a cell of sensor width / 1280
     double centroid_x_mm = 0.0, centroid_y_mm = 0.0;
     double rms_radius_mm = 0.0;

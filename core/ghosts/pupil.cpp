@@ -12,13 +12,19 @@
 namespace ghostlight {
 namespace {
 
-constexpr int first_level_cells = 24;
-constexpr int blind_levels = 3;  ///< cells of failing corners are kept that long
+/// What a search spends.
+struct Effort {
+    std::uint32_t first_level_cells;
+    int blind_levels;            ///< cells of failing corners are kept that long
+    std::size_t enough_passing;  ///< nodes that pass: the region is resolved
+    std::size_t most_cells;
+};
+constexpr Effort thorough{24, 3, 100, 3000};
+constexpr Effort quick{12, 1, 40, 600};
+
 constexpr double blind_clearance = 5.0;  ///< r_rel beside a failing corner that may still fall to 1
 constexpr double first_level_dip = 0.15;   ///< of r_rel inside a cell; falls fourfold a level
 constexpr int finest_level = 12;
-constexpr std::size_t enough_passing = 100;  ///< nodes that pass: the region is resolved
-constexpr std::size_t most_cells = 3000;
 
 std::uint64_t key_of(std::uint32_t i, std::uint32_t j) { return (std::uint64_t{j} << 32) | i; }
 
@@ -39,9 +45,10 @@ struct Range {
 };
 
 /// The nodes of a level's cells, traced once each.
+template <class T>
 struct Nodes {
     std::vector<std::uint64_t> keys;
-    Bundle<double> rays;
+    Bundle<T> rays;
 
     std::size_t at(std::uint32_t i, std::uint32_t j) const {
         const auto found = std::ranges::lower_bound(keys, key_of(i, j));
@@ -49,9 +56,10 @@ struct Nodes {
     }
 };
 
-Nodes trace_nodes(const TracePath<double>& path, const BeamFrame& frame, const PupilBox& box,
+template <class T>
+Nodes<T> trace_nodes(const TracePath<T>& path, const BeamFrame& frame, const PupilBox& box,
                   int cells_across, const std::vector<PupilCell>& cells) {
-    Nodes nodes;
+    Nodes<T> nodes;
     for (const PupilCell& cell : cells)
         for (std::uint32_t k = 0; k < 4; ++k)
             nodes.keys.push_back(key_of(cell.i + (k & 1), cell.j + (k >> 1)));
@@ -61,8 +69,9 @@ Nodes trace_nodes(const TracePath<double>& path, const BeamFrame& frame, const P
     const double du = (box.u1_mm - box.u0_mm) / cells_across;
     const double dv = (box.v1_mm - box.v0_mm) / cells_across;
     for (const std::uint64_t key : nodes.keys) {
-        nodes.rays.u_mm.push_back(box.u0_mm + du * static_cast<double>(key & 0xffffffffU));
-        nodes.rays.v_mm.push_back(box.v0_mm + dv * static_cast<double>(key >> 32));
+        nodes.rays.u_mm.push_back(
+            static_cast<T>(box.u0_mm + du * static_cast<double>(key & 0xffffffffU)));
+        nodes.rays.v_mm.push_back(static_cast<T>(box.v0_mm + dv * static_cast<double>(key >> 32)));
     }
     trace_bundle(path, frame, Weights::none, nodes.rays);
     return nodes;
@@ -70,28 +79,30 @@ Nodes trace_nodes(const TracePath<double>& path, const BeamFrame& frame, const P
 
 /// Whether a ray through the cell may pass, if the map does not bend by more than `share` of its
 /// change across the cell. A cell whose corners all fail is kept on the first levels only.
-bool may_pass(const Nodes& nodes, const PupilCell& cell, int level, double stop_radius_mm) {
+template <class T>
+bool may_pass(const Nodes<T>& nodes, const PupilCell& cell, int level, double stop_radius_mm,
+              const Effort& effort) {
     double share = level == 0 ? 0.75 : 0.4;
-    const Bundle<double>& rays = nodes.rays;
+    const Bundle<T>& rays = nodes.rays;
     Range margin, clearance;
     std::size_t corner[4];
     int valid = 0;
     for (std::uint32_t k = 0; k < 4; ++k) {
         corner[k] = nodes.at(cell.i + (k & 1), cell.j + (k >> 1));
         margin.add(rays.margin[corner[k]]);
-        if (rays.margin[corner[k]] >= 0.0) ++valid;
+        if (rays.margin[corner[k]] >= T(0)) ++valid;
     }
     const bool singular = margin.low < margin.high - margin.low;
     if (valid == 0 && level == 0) return true;
     margin.widen(share);
     if (margin.high < 0.0) return false;
-    if (valid == 0) return level < blind_levels;
+    if (valid == 0) return level < effort.blind_levels;
     // Past a miss or total reflection the map is only continued, and next to it it turns sharply:
     // trust the valid corners alone, and less.
-    if (singular && level <= blind_levels) share = 2.0;
+    if (singular && level <= effort.blind_levels) share = 2.0;
     for (const std::size_t c : corner)
-        if (rays.margin[c] >= 0.0) clearance.add(rays.r_rel[c]);
-    if (valid < 4 && level <= blind_levels) return clearance.low < blind_clearance;
+        if (rays.margin[c] >= T(0)) clearance.add(rays.r_rel[c]);
+    if (valid < 4 && level <= effort.blind_levels) return clearance.low < blind_clearance;
     clearance.widen(share);
     // r_rel is a maximum over surfaces and may dip between equal corners.
     if (clearance.low - std::ldexp(first_level_dip, -2 * level) > 1.0) return false;
@@ -109,10 +120,11 @@ bool may_pass(const Nodes& nodes, const PupilCell& cell, int level, double stop_
     return true;
 }
 
-std::size_t passing_nodes(const Bundle<double>& rays, double stop_radius_mm) {
+template <class T>
+std::size_t passing_nodes(const Bundle<T>& rays, double stop_radius_mm) {
     std::size_t count = 0;
     for (std::size_t n = 0; n < rays.size(); ++n) {
-        bool passes = rays.margin[n] >= 0.0 && rays.r_rel[n] <= 1.0;
+        bool passes = rays.margin[n] >= T(0) && rays.r_rel[n] <= T(1);
         for (std::size_t k = 0; k < static_cast<std::size_t>(rays.stop_crossings); ++k)
             passes = passes &&
                      std::hypot(rays.stop_u_mm[k][n], rays.stop_v_mm[k][n]) <= stop_radius_mm;
@@ -147,23 +159,25 @@ PupilBox entrance_box(const OpticalSystem& system, const BeamFrame& frame) {
     return {u.low, u.high, v.low, v.high};
 }
 
-Pupil find_pupil(const OpticalSystem& system, const TracePath<double>& path,
-                 const BeamFrame& frame) {
+template <class T>
+Pupil find_pupil(const OpticalSystem& system, const TracePath<T>& path, const BeamFrame& frame,
+                 PupilSearch search) {
+    const Effort& effort = search == PupilSearch::thorough ? thorough : quick;
     const double stop_radius_mm = system.stop_mask.semi_diameter_mm;
     Pupil pupil;
     pupil.entrance = entrance_box(system, frame);
-    pupil.across = first_level_cells;
-    for (std::uint32_t j = 0; j < first_level_cells; ++j)
-        for (std::uint32_t i = 0; i < first_level_cells; ++i) pupil.cells.push_back({i, j});
+    pupil.across = static_cast<int>(effort.first_level_cells);
+    for (std::uint32_t j = 0; j < effort.first_level_cells; ++j)
+        for (std::uint32_t i = 0; i < effort.first_level_cells; ++i) pupil.cells.push_back({i, j});
     for (int level = 0;; ++level) {
-        const Nodes nodes = trace_nodes(path, frame, pupil.entrance, pupil.across, pupil.cells);
+        const Nodes<T> nodes = trace_nodes(path, frame, pupil.entrance, pupil.across, pupil.cells);
         pupil.rays += nodes.keys.size();
         std::erase_if(pupil.cells, [&](const PupilCell& cell) {
-            return !may_pass(nodes, cell, level, stop_radius_mm);
+            return !may_pass(nodes, cell, level, stop_radius_mm, effort);
         });
         if (pupil.empty()) return pupil;
-        if (passing_nodes(nodes.rays, stop_radius_mm) >= enough_passing ||
-            pupil.cells.size() >= most_cells || level == finest_level)
+        if (passing_nodes(nodes.rays, stop_radius_mm) >= effort.enough_passing ||
+            pupil.cells.size() >= effort.most_cells || level == finest_level)
             break;
         std::vector<PupilCell> finer;
         finer.reserve(4 * pupil.cells.size());
@@ -187,6 +201,11 @@ Pupil find_pupil(const OpticalSystem& system, const TracePath<double>& path,
                  whole.v0_mm + dv * j.high};
     return pupil;
 }
+
+template Pupil find_pupil(const OpticalSystem&, const TracePath<float>&, const BeamFrame&,
+                          PupilSearch);
+template Pupil find_pupil(const OpticalSystem&, const TracePath<double>&, const BeamFrame&,
+                          PupilSearch);
 
 template <class T>
 void lay_grid(const PupilBox& box, int cells, Bundle<T>& bundle) {

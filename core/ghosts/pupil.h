@@ -32,12 +32,17 @@ struct Pupil {
 /// The box around the first surface's clear cap, as the beam sees it.
 PupilBox entrance_box(const OpticalSystem& system, const BeamFrame& frame);
 
+/// How hard to look: `thorough` finds slivers of a few thousandths of the entrance beside failing
+/// rays, for tables; `quick` may miss them, for pictures at interactive rate.
+enum class PupilSearch { quick, thorough };
+
 /// Looks for the part of the entrance that reaches the sensor along `path`: cells that may hold a
 /// passing ray, judged by their corners' clearances and stop coordinates with a safety margin, are
 /// split until enough of them pass. Follows the stop: a small stop's pre-image is found however
 /// small it is.
-Pupil find_pupil(const OpticalSystem& system, const TracePath<double>& path,
-                 const BeamFrame& frame);
+template <class T>
+Pupil find_pupil(const OpticalSystem& system, const TracePath<T>& path, const BeamFrame& frame,
+                 PupilSearch search = PupilSearch::thorough);
 
 /// (cells + 1)² points over a box, row by row from v0 and u0.
 template <class T>

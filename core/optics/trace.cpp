@@ -86,7 +86,7 @@ TracedRay trace_ray(const OpticalSystem& system, const GhostPath& ghost, const R
     };
     for (const TraceStep<double>& step : path.steps) {
         const std::size_t surface = static_cast<std::size_t>(step.surface);
-        const Meeting<double> meeting = meet(step, path.aspheric.data(), at);
+        const Meeting<double> meeting = meet(step, path.aspheric.data(), 1.0, at);
         if (!(meeting.turned_margin >= 0.0)) return fail(RayFate::turned, surface);
         if (!(meeting.miss_margin >= 0.0)) return fail(RayFate::miss, surface);
         const double r = std::hypot(at.position.x, at.position.y);

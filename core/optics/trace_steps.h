@@ -71,9 +71,10 @@ GHOSTLIGHT_INLINE void sag_of(const TraceStep<T>& step, const T* a, const V& r2,
 }
 
 /// Newton from the conic's hit, then bisection for what has not converged; what still fails gets
-/// a negative miss margin.
+/// a negative miss margin. Rays that failed before (`margin` < 0) are not worth the trouble.
 template <class V, class T>
-void refine_asphere(const TraceStep<T>& step, const T* a, RayAt<V>& ray, Meeting<V>& meeting) {
+void refine_asphere(const TraceStep<T>& step, const T* a, const V& margin, RayAt<V>& ray,
+                    Meeting<V>& meeting) {
     using std::fabs;
     using L = Lane<V>;
     const V zero{L(0)};
@@ -98,10 +99,10 @@ void refine_asphere(const TraceStep<T>& step, const T* a, RayAt<V>& ray, Meeting
         const V move = smaller(V(clear), larger(V(-clear), V(-f / steep)));
         ray.position = along(ray.position, ray.direction, move);
         f = miss(ray.position);
-        if (!any(fabs(f) > tolerance)) break;
+        if (!any(margin >= zero && fabs(f) > tolerance)) break;
     }
     const auto far = !(fabs(f) <= L(16) * tolerance);
-    if (any(far)) {
+    if (any(far && margin >= zero)) {
         // A sign change about the conic's hit, within a clear radius either way.
         V low = V(-clear), high = V(clear);
         const V f_low = miss(along(start, ray.direction, low));
@@ -122,7 +123,7 @@ void refine_asphere(const TraceStep<T>& step, const T* a, RayAt<V>& ray, Meeting
         const auto lost = far && !(bracketed && fabs(f) <= L(64) * tolerance);
         meeting.miss_margin = select(lost, V(L(-1)), V(L(1)));
     } else {
-        meeting.miss_margin = V(L(1));
+        meeting.miss_margin = select(far, V(L(-1)), V(L(1)));
     }
     meeting.hemisphere_margin = domain;
     const V gx = L(-2) * slope * ray.position.x;
@@ -132,9 +133,11 @@ void refine_asphere(const TraceStep<T>& step, const T* a, RayAt<V>& ray, Meeting
 
 }  // namespace detail
 
-/// Moves the ray to the surface of `step`, in that surface's own coordinates.
+/// Moves the ray to the surface of `step`, in that surface's own coordinates. `margin` is the
+/// ray's least margin so far.
 template <class V, class T>
-GHOSTLIGHT_INLINE Meeting<V> meet(const TraceStep<T>& step, const T* aspheric, RayAt<V>& ray) {
+GHOSTLIGHT_INLINE Meeting<V> meet(const TraceStep<T>& step, const T* aspheric, const V& margin,
+                                  RayAt<V>& ray) {
     using std::sqrt;
     using L = Lane<V>;
     Meeting<V> meeting;
@@ -155,7 +158,7 @@ GHOSTLIGHT_INLINE Meeting<V> meet(const TraceStep<T>& step, const T* aspheric, R
     meeting.hemisphere_margin = L(1) - k1 * c * q.z;
     meeting.normal = Vec3<V>(V(-c * q.x), V(-c * q.y), meeting.hemisphere_margin);
     if (step.aspheric_count > 0)
-        detail::refine_asphere(step, aspheric + step.first_aspheric, ray, meeting);
+        detail::refine_asphere(step, aspheric + step.first_aspheric, margin, ray, meeting);
     if (step.spherical) {
         // The root is the cosine of incidence, and the normal already has unit length.
         meeting.cos_incidence = smaller(V(L(1)), root);
