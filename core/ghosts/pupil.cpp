@@ -50,7 +50,10 @@ struct Nodes {
     std::vector<std::uint64_t> keys;
     Bundle<T> rays;
 
+    std::size_t side = 0;  ///< points of a full square grid across, else 0
+
     std::size_t at(std::uint32_t i, std::uint32_t j) const {
+        if (side > 0) return j * side + i;
         const auto found = std::ranges::lower_bound(keys, key_of(i, j));
         return static_cast<std::size_t>(found - keys.begin());
     }
@@ -60,12 +63,19 @@ template <class T>
 Nodes<T> trace_nodes(const TracePath<T>& path, const BeamFrame& frame, const PupilBox& box,
                   int cells_across, const std::vector<PupilCell>& cells) {
     Nodes<T> nodes;
-    for (const PupilCell& cell : cells)
-        for (std::uint32_t k = 0; k < 4; ++k)
-            nodes.keys.push_back(key_of(cell.i + (k & 1), cell.j + (k >> 1)));
-    std::ranges::sort(nodes.keys);
-    const auto repeated = std::ranges::unique(nodes.keys);
-    nodes.keys.erase(repeated.begin(), repeated.end());
+    const auto across = static_cast<std::uint32_t>(cells_across);
+    if (cells.size() == std::size_t{across} * across) {
+        nodes.side = across + 1;
+        for (std::uint32_t j = 0; j <= across; ++j)
+            for (std::uint32_t i = 0; i <= across; ++i) nodes.keys.push_back(key_of(i, j));
+    } else {
+        for (const PupilCell& cell : cells)
+            for (std::uint32_t k = 0; k < 4; ++k)
+                nodes.keys.push_back(key_of(cell.i + (k & 1), cell.j + (k >> 1)));
+        std::ranges::sort(nodes.keys);
+        const auto repeated = std::ranges::unique(nodes.keys);
+        nodes.keys.erase(repeated.begin(), repeated.end());
+    }
     const double du = (box.u1_mm - box.u0_mm) / cells_across;
     const double dv = (box.v1_mm - box.v0_mm) / cells_across;
     for (const std::uint64_t key : nodes.keys) {
