@@ -194,12 +194,14 @@ void LayoutActors::show_lens(const LensDrawing& drawing, const Palette& colors) 
                           hard_layer, colors.text);
         }
     }
-    const SensorLine& sensor = drawing.sensor;
-    outlines.add_line(
-        {{sensor.z_mm, -sensor.half_diagonal_mm}, {sensor.z_mm, sensor.half_diagonal_mm}},
-        outline_layer, mixed(colors.panel, colors.dim, 0.6));
-    hard.add_line({{sensor.z_mm, -sensor.half_length_mm}, {sensor.z_mm, sensor.half_length_mm}},
-                  hard_layer, colors.text);
+    if (!drawing.surfaces.empty()) {  // no lens, no sensor
+        const SensorLine& sensor = drawing.sensor;
+        outlines.add_line(
+            {{sensor.z_mm, -sensor.half_diagonal_mm}, {sensor.z_mm, sensor.half_diagonal_mm}},
+            outline_layer, mixed(colors.panel, colors.dim, 0.6));
+        hard.add_line({{sensor.z_mm, -sensor.half_length_mm}, {sensor.z_mm, sensor.half_length_mm}},
+                      hard_layer, colors.text);
+    }
     for (Shape* shape : {&glass, &outlines, &hard}) {
         shape->end();
     }

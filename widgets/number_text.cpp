@@ -26,7 +26,7 @@ QString significant(double value, int digits) {
     if (size == 0.0) {
         return QStringLiteral("0");
     }
-    if (size < 1e-4 || size >= 1e6) {
+    if (size < 1e-3 || size >= 1e6) {
         return with_true_minus(QString::number(value, 'e', digits - 1));
     }
     // The exponent after rounding: 9.9996 is written with the decimals of 10.00.

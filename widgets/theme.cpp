@@ -95,6 +95,8 @@ QPushButton:disabled { color: @faint; }
 #scene_bar QLineEdit { selection-background-color: @selection; }
 #scene_bar QComboBox::drop-down { width: 0; border: none; }
 #status_line { background: @ground; border-top: 1px solid @line; }
+#refusal { background: @ground; color: @warning; border: 1px solid @warning;
+    border-radius: 4px; padding: 6px 8px; }
 #banner { background: @ground; border: 1px solid @warning; border-radius: 4px; }
 )");
     const std::pair<const char*, QColor> roles[] = {

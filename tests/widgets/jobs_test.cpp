@@ -66,6 +66,7 @@ struct JobsTest : testing::Test {
         ASSERT_FALSE(document.open(test::tessar()));
         Scene scene = document.scene();
         scene.tolerance = 0.5;
+        scene.spectrum = Monochromatic{};
         document.edit_scene(scene, "change tolerance");
     }
     bool settle() {

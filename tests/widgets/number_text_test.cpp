@@ -14,6 +14,7 @@ TEST(NumberText, FourSignificantDigits) {
     EXPECT_EQ(significant(9.99996), "10.00");
     EXPECT_EQ(significant(-127.944), "−127.9");
     EXPECT_EQ(significant(5.3714e-5), "5.371e−05");
+    EXPECT_EQ(significant(4.53e-4), "4.530e−04");
     EXPECT_EQ(significant(0.0), "0");
     EXPECT_EQ(significant(std::numeric_limits<double>::infinity()), "∞");
 }

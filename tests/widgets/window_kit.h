@@ -20,7 +20,8 @@ inline std::filesystem::path bundled(const std::string& file) {
 
 inline std::filesystem::path tessar() { return bundled("tessar_brendel_100_f2.8.json"); }
 
-/// A shown window that keeps nothing, with a loose tolerance: these tests are about the window.
+/// A shown window that keeps nothing, with a ghost table of one wavelength and a loose tolerance:
+/// these tests are about the window.
 struct OpenWindow {
     explicit OpenWindow(const std::filesystem::path& lens = {}) {
         window.resize(1400, 860);
@@ -34,7 +35,8 @@ struct OpenWindow {
     void loosen() {
         Scene scene = window.document().scene();
         scene.tolerance = 0.5;
-        window.document().edit_scene(scene, "change tolerance", "tolerance");
+        scene.spectrum = Monochromatic{};
+        window.document().edit_scene(scene, "make the table cheap", "tolerance");
     }
     bool settle() { return wait_until_settled(window, patience_ms); }
 

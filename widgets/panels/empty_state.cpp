@@ -8,6 +8,8 @@ namespace ghostlight {
 
 EmptyState::EmptyState(const QString& what, const QString& action_text, QWidget* parent)
     : QWidget(parent), what_(new QLabel(what)) {
+    setBackgroundRole(QPalette::Base);  // as the panel that it stands for
+    setAutoFillBackground(true);
     what_->setWordWrap(true);
     what_->setAlignment(Qt::AlignCenter);
     what_->setForegroundRole(QPalette::PlaceholderText);

@@ -17,6 +17,7 @@
 #include "widgets/models/ghost_table_model.h"
 #include "widgets/panel_header.h"
 #include "widgets/panels/empty_state.h"
+#include "widgets/panels/plain_table.h"
 #include "widgets/panels/table_delegate.h"
 #include "widgets/selection.h"
 #include "widgets/settings.h"
@@ -60,22 +61,13 @@ constexpr std::array<Threshold, 3> thresholds = {
 constexpr const char* what_is_here =
     "The lens's ghosts, the strongest first: flux, peak, place and size on the sensor.";
 
-QTableView* make_table(QAbstractItemModel* model) {
-    auto* table = new QTableView;
+QTableView* make_table(QAbstractItemModel* model, QObject* parent) {
+    QTableView* table = plain_table(
+        model, new TableDelegate(GhostTableModel::bar_role, GhostTableModel::stale_role, parent));
     table->setObjectName("ghost_table");
-    table->setModel(model);
-    table->setShowGrid(false);
-    table->setFrameShape(QFrame::NoFrame);
     table->setSelectionMode(QAbstractItemView::ExtendedSelection);
     table->setSelectionBehavior(QAbstractItemView::SelectRows);
     table->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    table->setContextMenuPolicy(Qt::CustomContextMenu);
-    table->setWordWrap(false);
-    table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
-    table->verticalHeader()->hide();
-    table->verticalHeader()->setDefaultSectionSize(table_row_height);
-    table->verticalHeader()->setMinimumSectionSize(table_row_height);
-    table->horizontalHeader()->setHighlightSections(false);
     table->setSortingEnabled(true);
     table->sortByColumn(GhostTableModel::flux, Qt::DescendingOrder);
     return table;
@@ -90,11 +82,9 @@ GhostPanel::GhostPanel(Selection& selection, const Actions& actions, QWidget* pa
       model_(new GhostTableModel(this)),
       filter_(new GhostFilter(*model_, this)),
       header_(new PanelHeader("Ghosts")),
-      table_(make_table(filter_)),
+      table_(make_table(filter_, this)),
       empty_(new EmptyState(what_is_here, "Open a lens…")),
       pages_(new QStackedWidget) {
-    table_->setItemDelegate(
-        new TableDelegate(GhostTableModel::bar_role, GhostTableModel::stale_role, this));
     pages_->addWidget(empty_);
     pages_->addWidget(table_);
     auto* column = new QVBoxLayout(this);
@@ -159,7 +149,7 @@ void GhostPanel::set_table(std::shared_ptr<const GhostTable> table) {
     selecting_ = false;
     select_in_table();
     if (was_empty) {
-        table_->resizeColumnsToContents();
+        fit_columns(*table_);
     }
     show_state();
 }

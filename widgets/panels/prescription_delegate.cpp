@@ -52,14 +52,16 @@ QWidget* PrescriptionDelegate::createEditor(QWidget* parent, const QStyleOptionV
     editor->setFrame(false);
     editor->setAlignment(static_cast<Qt::Alignment>(index.data(Qt::TextAlignmentRole).toInt()));
     editor->setProperty(cell_property, QPersistentModelIndex(index));
+    if (index.column() == PrescriptionModel::coating ||
+        index.column() == PrescriptionModel::aspheric) {
+        editor->setMinimumWidth(200);  // what is typed here may be longer than the column is wide
+    }
     const QStringList words = suggestions(index.column());
     if (!words.isEmpty()) {
         auto* completer = new QCompleter(words, editor);
         completer->setCaseSensitivity(Qt::CaseInsensitive);
         completer->setFilterMode(Qt::MatchContains);
         editor->setCompleter(completer);
-        // Long coatings need more room than their column.
-        editor->setMinimumWidth(160);
     }
     connect(editor, &QLineEdit::textEdited, this, [this, editor] {
         mark(*editor, false);

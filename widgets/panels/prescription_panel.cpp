@@ -3,7 +3,6 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QMenu>
-#include <QScrollBar>
 #include <QStackedWidget>
 #include <QTableView>
 #include <QTimer>
@@ -14,9 +13,9 @@
 #include "widgets/actions.h"
 #include "widgets/document.h"
 #include "widgets/models/prescription_model.h"
-#include "widgets/palette.h"
 #include "widgets/panel_header.h"
 #include "widgets/panels/empty_state.h"
+#include "widgets/panels/plain_table.h"
 #include "widgets/panels/prescription_delegate.h"
 
 namespace ghostlight {
@@ -24,27 +23,13 @@ namespace ghostlight {
 namespace {
 
 QTableView* make_table(QAbstractItemModel* model, QAbstractItemDelegate* delegate) {
-    auto* table = new QTableView;
+    QTableView* table = plain_table(model, delegate);
     table->setObjectName("prescription_table");
-    table->setModel(model);
-    table->setItemDelegate(delegate);
-    table->setShowGrid(false);
-    table->setFrameShape(QFrame::NoFrame);
     table->setSelectionMode(QAbstractItemView::SingleSelection);
     table->setSelectionBehavior(QAbstractItemView::SelectItems);
     table->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed |
                            QAbstractItemView::AnyKeyPressed);
-    table->setContextMenuPolicy(Qt::CustomContextMenu);
-    table->setWordWrap(false);
-    table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
-    table->verticalHeader()->hide();
-    table->verticalHeader()->setDefaultSectionSize(table_row_height);
-    table->verticalHeader()->setMinimumSectionSize(table_row_height);
-    QHeaderView* header = table->horizontalHeader();
-    header->setSectionResizeMode(QHeaderView::Interactive);
-    header->setHighlightSections(false);
-    header->setMinimumSectionSize(28);
-    header->setStretchLastSection(true);
+    table->horizontalHeader()->setStretchLastSection(true);
     return table;
 }
 
@@ -55,13 +40,13 @@ PrescriptionPanel::PrescriptionPanel(Document& document, const Actions& actions,
       document_(document),
       model_(new PrescriptionModel(document, this)),
       header_(new PanelHeader("Prescription")),
-      reason_(new QLabel),
       pages_(new QStackedWidget) {
     auto* delegate = new PrescriptionDelegate(this);
     table_ = make_table(model_, delegate);
+    // Beside the cell that it is about; it scrolls with it.
+    reason_ = new QLabel(table_->viewport());
     reason_->setObjectName("refusal");
     reason_->setWordWrap(true);
-    reason_->setContentsMargins(12, 6, 12, 8);
     reason_->hide();
     auto* empty = new EmptyState(
         "The lens's surfaces: radii, thicknesses, glasses and coatings, to be edited here.",
@@ -75,7 +60,6 @@ PrescriptionPanel::PrescriptionPanel(Document& document, const Actions& actions,
     column->setSpacing(0);
     column->addWidget(header_);
     column->addWidget(pages_, 1);
-    column->addWidget(reason_);
 
     connect(delegate, &PrescriptionDelegate::refusal_changed, this,
             &PrescriptionPanel::show_reason);
@@ -166,15 +150,26 @@ void PrescriptionPanel::show_columns() {
     table_->setColumnHidden(PrescriptionModel::aspheric, !aspheric);
     table_->setColumnHidden(PrescriptionModel::comment,
                             !any([](const Surface& s) { return !s.comment.empty(); }));
-    table_->resizeColumnsToContents();
+    fit_columns(*table_);
 }
 
 void PrescriptionPanel::show_reason(const QString& reason) {
-    QPalette palette = reason_->palette();
-    palette.setColor(QPalette::WindowText, current_palette().red_orange);
-    reason_->setPalette(palette);
     reason_->setText(reason);
     reason_->setVisible(!reason.isEmpty());
+    if (reason.isEmpty()) {
+        return;
+    }
+    constexpr int most_width = 360;
+    constexpr int margin = 8;
+    const QRect cell = table_->visualRect(table_->currentIndex());
+    const QRect room = table_->viewport()->rect().adjusted(margin, 0, -margin, 0);
+    const int width = std::min(room.width(), most_width);
+    const int height = reason_->heightForWidth(width);
+    // Below the cell, or above it where there is no room below.
+    const bool fits = cell.bottom() + 4 + height <= room.bottom();
+    reason_->setGeometry(std::clamp(cell.left(), room.left(), room.right() + 1 - width),
+                         fits ? cell.bottom() + 4 : cell.top() - 4 - height, width, height);
+    reason_->raise();
 }
 
 QString PrescriptionPanel::reason() const { return reason_->text(); }

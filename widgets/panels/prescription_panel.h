@@ -39,7 +39,7 @@ class PrescriptionPanel : public QWidget {
     PrescriptionModel* model_;
     PanelHeader* header_;
     QTableView* table_;
-    QLabel* reason_;
+    QLabel* reason_ = nullptr;
     QStackedWidget* pages_;
     int kept_row_ = -1;  ///< while the rows are replaced
 };

@@ -62,6 +62,7 @@ SceneBar::SceneBar(Document& document, QWidget* parent)
     setFloatable(false);
     toggleViewAction()->setVisible(false);
     auto* content = new QWidget;
+    content->setFixedHeight(40);  // also without fields
     auto* row = new QHBoxLayout(content);
     row->setContentsMargins(12, 6, 12, 6);
     row->setSpacing(8);
