@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/flare/ghost_mesh.h"
-#include "core/ghosts/cells.h"
+#include "core/ghosts/weighted_grid.h"
 #include "core/ghosts/pupil.h"
 #include "core/parallel.h"
 
@@ -13,9 +13,6 @@ namespace ghostlight {
 namespace {
 
 constexpr int band_rows = 16;
-constexpr int probe_cells = 8;
-constexpr int split_cells = 4;
-constexpr double smooth_enough = 0.01;  ///< roughness of weights that may be interpolated
 
 using Clock = std::chrono::steady_clock;
 double ms_since(Clock::time_point began) {
@@ -74,64 +71,6 @@ void add_band(const BandedMesh& banded, std::size_t band, BandRaster& raster) {
     }
 }
 
-/// How far the weights of a probe's odd nodes are from the mean of their even neighbours, flux for
-/// flux: about four times the error of interpolating the probe bilinearly.
-double roughness(const RayField<float>& probe) {
-    constexpr int side = probe_cells + 1;
-    double change = 0.0, sum = 0.0;
-    auto passes = [&](std::size_t node) {
-        return std::ranges::all_of(probe.clearances, [&](const auto& c) { return c[node] >= 0.0F; });
-    };
-    for (int j = 0; j < side; j += 2)
-        for (int i = 1; i < side; i += 2)
-            for (const bool along_u : {true, false}) {
-                const int step = along_u ? 1 : side;
-                const auto node = static_cast<std::size_t>(along_u ? j * side + i : i * side + j);
-                const auto before = node - static_cast<std::size_t>(step);
-                const auto after = node + static_cast<std::size_t>(step);
-                if (!passes(before) || !passes(node) || !passes(after)) continue;
-                const auto& w = probe.rays.weight;
-                change += std::abs(static_cast<double>(w[node]) -
-                                   0.5 * static_cast<double>(w[before] + w[after]));
-                sum += static_cast<double>(w[node]);
-            }
-    return sum > 0.0 ? change / sum : 1.0;
-}
-
-/// Gives the nodes of a grid that was traced without weights the polarised weights of a coarser
-/// one, bilinearly: films vary slowly over the pupil, and cost more than the geometry.
-void fill_weights(const RayField<float>& probe, BundleGrid<float>& grid) {
-    constexpr int side = probe_cells + 1;
-    // Failed rays take the mean of their neighbours, so that edges are not darkened.
-    std::vector<float> known(probe.rays.weight);
-    for (int j = 0; j < side; ++j)
-        for (int i = 0; i < side; ++i) {
-            if (probe.rays.margin[static_cast<std::size_t>(j * side + i)] >= 0.0F) continue;
-            float sum = 0.0F;
-            int count = 0;
-            for (int n = std::max(0, j - 1); n <= std::min(side - 1, j + 1); ++n)
-                for (int m = std::max(0, i - 1); m <= std::min(side - 1, i + 1); ++m) {
-                    const auto node = static_cast<std::size_t>(n * side + m);
-                    if (probe.rays.margin[node] < 0.0F) continue;
-                    sum += probe.rays.weight[node];
-                    ++count;
-                }
-            if (count > 0) known[static_cast<std::size_t>(j * side + i)] = sum / static_cast<float>(count);
-        }
-    auto at = [&](int i, int j) { return known[static_cast<std::size_t>(j * side + i)]; };
-    for (int j = 0; j <= grid.cells; ++j)
-        for (int i = 0; i <= grid.cells; ++i) {
-            const float x = static_cast<float>(i * probe_cells) / static_cast<float>(grid.cells);
-            const float y = static_cast<float>(j * probe_cells) / static_cast<float>(grid.cells);
-            const int i0 = std::min(static_cast<int>(x), probe_cells - 1);
-            const int j0 = std::min(static_cast<int>(y), probe_cells - 1);
-            const float fx = x - static_cast<float>(i0), fy = y - static_cast<float>(j0);
-            grid.field.rays.weight[static_cast<std::size_t>(j * (grid.cells + 1) + i)] =
-                std::lerp(std::lerp(at(i0, j0), at(i0 + 1, j0), fx),
-                          std::lerp(at(i0, j0 + 1), at(i0 + 1, j0 + 1), fx), fy);
-        }
-}
-
 }  // namespace
 
 std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequest& request,
@@ -171,17 +110,10 @@ std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequ
         if (pupils[t].empty()) return;
         const OpticalSystem& system = systems[t % samples.size()];
         const GhostPath& ghost = ghosts[t / samples.size()];
-        const TracePath<float> path = trace_path<float>(system, ghost);
-        Bundle<float> points;
-        lay_grid(pupils[t].box, probe_cells, points);
-        const auto probe =
-            trace_field(system, path, frame, std::move(points), Weights::polarised);
-        const bool smooth = roughness(probe) < smooth_enough;
-        auto grid = trace_grid(system, path, frame, pupils[t].box, request.grid, split_cells,
-                               smooth ? Weights::none : Weights::polarised);
-        if (smooth) fill_weights(probe, grid.base);
+        const auto grid = weighted_grid(system, trace_path<float>(system, ghost), frame,
+                                        pupils[t].box, request.grid);
         meshes[t].mesh = ghost_mesh(grid, pixels, 1.0);
-        meshes[t].rays = grid.rays() + probe.rays.size();
+        meshes[t].rays = grid.rays();
         sort_into_bands(meshes[t], pixels, bands);
     });
     if (!finished) return std::nullopt;

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/ghosts/cells.h"
+#include "core/ghosts/weighted_grid.h"
 
 namespace ghostlight {
 namespace {
 
 constexpr std::size_t most_rays = 400'000;  ///< per path and wavelength
 constexpr int deepest_level = 10;           ///< splits below the pupil search's cells
-constexpr int mesh_grid = 64;
-constexpr int split_cells = 4;              ///< across a singular cell of the mesh
 
 /// First and second moments of weight dA over a piece: the edge midpoints' rule on a fan of
 /// triangles, exact for quadratics.
@@ -141,7 +139,10 @@ FluxSums operator*(double scale, FluxSums sums) {
 
 PathQuadrature::PathQuadrature(const OpticalSystem& system, const GhostPath& path,
                                const BeamFrame& frame)
-    : system_(system), path_(trace_path<double>(system, path)), frame_(frame) {}
+    : system_(system),
+      ghost_(path),
+      path_(trace_path<double>(system, path)),
+      frame_(frame) {}
 
 void PathQuadrature::trace_lattice(PathFlux& flux, const std::vector<std::uint64_t>& keys) const {
     const PupilBox& box = flux.pupil.entrance;
@@ -230,17 +231,18 @@ void PathQuadrature::refine(PathFlux& flux, double share, double floor_mm2,
     flux.sums = sums_of(flux, system_);
 }
 
-GhostMesh PathQuadrature::mesh(PathFlux& flux, const PixelFrame& pixels, double gain) const {
+GhostMesh PathQuadrature::mesh(PathFlux& flux, const PixelFrame& pixels, int cells,
+                               double gain) const {
     if (flux.cells.empty()) return {};
-    const auto grid = trace_grid(system_, path_, frame_, flux.pupil.box, mesh_grid, split_cells,
-                                 Weights::average);
+    const auto grid = weighted_grid(system_, trace_path<float>(system_, ghost_), frame_,
+                                    flux.pupil.box, cells);
     flux.rays += grid.rays();
-    double average = 0.0;
-    for_each_piece(grid, [&](const BundleGrid<double>&, const Piece& piece) {
-        average += flux_mm2(piece);
+    double on_grid = 0.0;
+    for_each_piece(grid, [&](const BundleGrid<float>&, const Piece& piece) {
+        on_grid += flux_mm2(piece);
     });
-    if (!(average > 0.0)) return {};
-    return ghost_mesh(grid, pixels, gain * flux.sums.flux / average);
+    if (!(on_grid > 0.0)) return {};
+    return ghost_mesh(grid, pixels, gain * flux.sums.flux / on_grid);
 }
 
 }  // namespace ghostlight

@@ -63,10 +63,11 @@ class PathQuadrature {
     void refine(PathFlux& flux, double share, double floor_mm2, std::stop_token stop) const;
 
     /// The path's irradiance for a raster, on a uniform grid, scaled to the flux found.
-    GhostMesh mesh(PathFlux& flux, const PixelFrame& pixels, double gain) const;
+    GhostMesh mesh(PathFlux& flux, const PixelFrame& pixels, int cells, double gain) const;
 
    private:
     const OpticalSystem& system_;
+    GhostPath ghost_;
     TracePath<double> path_;
     BeamFrame frame_;
 

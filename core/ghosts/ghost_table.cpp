@@ -15,6 +15,8 @@ namespace ghostlight {
 namespace {
 
 constexpr int peak_width_px = 1280;
+constexpr int coarsest_peak_grid = 32, finest_peak_grid = 512;
+constexpr double peak_tolerance = 0.05;  ///< change on doubling the grid at which a peak is settled
 constexpr int fewest_nodes = 5;  ///< of the spectrum; refined until two sets agree
 constexpr int most_nodes = 33;
 constexpr double faint_share = 1e-6;  ///< of the strongest ghost: nothing is refined below it
@@ -173,6 +175,21 @@ class TableBuilder {
         if (!monochromatic_) path.error_mm2 += spectral_error;
     }
 
+    /// On grids twice as fine until the peak settles: at a caustic it keeps growing for a while.
+    double peak(PathOverSpectrum& path, const GhostPath& ghost) const {
+        double before = 0.0;
+        for (int cells = coarsest_peak_grid;; cells *= 2) {
+            std::vector<GhostMesh> meshes;
+            for (const SpectralSample& s : nested_samples(request_.spectrum, path.nodes))
+                meshes.push_back(quadrature(ghost, s.wavelength_nm)
+                                     .mesh(path.at.at(s.wavelength_nm), pixels_, cells, s.weight));
+            const double now = peak_of(meshes, pixels_);
+            if (cells >= finest_peak_grid || std::abs(now - before) <= peak_tolerance * now)
+                return now;
+            before = now;
+        }
+    }
+
     GhostRow row(PathOverSpectrum& path, const GhostPath& ghost, double floor_mm2) const {
         GhostRow r;
         r.path = ghost;
@@ -190,13 +207,7 @@ class TableBuilder {
             r.reflectance_1 = sums.reflectance[0] / sums.flux;
             r.reflectance_2 = sums.reflectance[1] / sums.flux;
         }
-        if (request_.peaks && sums.on_sensor > 0.0) {
-            std::vector<GhostMesh> meshes;
-            for (const SpectralSample& s : nested_samples(request_.spectrum, path.nodes))
-                meshes.push_back(quadrature(ghost, s.wavelength_nm)
-                                     .mesh(path.at.at(s.wavelength_nm), pixels_, s.weight));
-            r.peak_per_e0 = peak_of(meshes, pixels_);
-        }
+        if (request_.peaks && sums.on_sensor > 0.0) r.peak_per_e0 = peak(path, ghost);
         for (const auto& [nm, at] : path.at) r.rays += at.rays;
         return r;
     }
