@@ -14,10 +14,10 @@ namespace {
 constexpr int table_delay_ms = 200;
 
 /// Coarse pictures, finest first. The one in use follows the time that the last one took.
-std::array<FlareRequest, 4> coarse_requests() {
-    std::array<FlareRequest, 4> requests{};
-    const std::array<int, 4> widths = {960, 800, 640, 480};
-    const std::array<int, 4> grids = {20, 16, 12, 8};
+std::array<FlareRequest, 5> coarse_requests() {
+    std::array<FlareRequest, 5> requests{};
+    const std::array<int, 5> widths = {960, 800, 640, 480, 320};
+    const std::array<int, 5> grids = {20, 16, 12, 8, 6};
     for (std::size_t k = 0; k < requests.size(); ++k) {
         requests[k].width_px = widths[k];
         requests[k].grid = grids[k];

@@ -133,7 +133,8 @@ void MainWindow::build_menus() {
     for (QDockWidget* dock : {prescription_dock_, layout_dock_, ghost_dock_}) {
         view->addAction(dock->toggleViewAction());
     }
-    actions_.fill(*view, {"view.reset", "-", "view.light_theme"});
+    actions_.fill(*view,
+                  {"view.reset", "-", "view.aspheres", "view.comments", "-", "view.light_theme"});
     actions_.add_menu(bar, "&Help", {"help.guide", "help.about"});
 }
 

@@ -45,6 +45,14 @@ double ghost_threshold() { return QSettings().value("ghost_threshold", 0.0).toDo
 
 void set_ghost_threshold(double share) { QSettings().setValue("ghost_threshold", share); }
 
+bool shows_aspheres() { return QSettings().value("columns/aspheres", false).toBool(); }
+
+void set_shows_aspheres(bool shown) { QSettings().setValue("columns/aspheres", shown); }
+
+bool shows_comments() { return QSettings().value("columns/comments", false).toBool(); }
+
+void set_shows_comments(bool shown) { QSettings().setValue("columns/comments", shown); }
+
 QString folder() { return QSettings().value("folder", QDir::homePath()).toString(); }
 
 void set_folder(const QString& folder) { QSettings().setValue("folder", folder); }

@@ -26,6 +26,12 @@ void set_window(const QByteArray& geometry, const QByteArray& state);
 double ghost_threshold();
 void set_ghost_threshold(double share);
 
+/// Columns of the prescription that most lenses have no use for.
+bool shows_aspheres();
+void set_shows_aspheres(bool shown);
+bool shows_comments();
+void set_shows_comments(bool shown);
+
 /// Where file dialogs open.
 QString folder();
 void set_folder(const QString& folder);

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <QAbstractItemView>
 #include <QClipboard>
+#include <QCompleter>
 #include <QDir>
 #include <QDropEvent>
 #include <QFile>
@@ -89,9 +91,9 @@ void press_return(QLineEdit* editor) {
     QTest::qWait(10);
 }
 
-struct EveryLens : testing::TestWithParam<std::string> {};
+struct EveryLensSlow : testing::TestWithParam<std::string> {};
 
-TEST_P(EveryLens, AnEditReachesAllViews) {
+TEST_P(EveryLensSlow, AnEditReachesAllViews) {
     OpenWindow shown(test::bundled(GetParam()));
     MainWindow& window = shown.window;
     ASSERT_TRUE(QTest::qWaitFor([&] { return window.picture().has_value(); }, test::patience_ms));
@@ -117,7 +119,7 @@ std::vector<std::string> every_lens() {
     }
     return files;
 }
-INSTANTIATE_TEST_SUITE_P(BundledSlow, EveryLens, testing::ValuesIn(every_lens()),
+INSTANTIATE_TEST_SUITE_P(Bundled, EveryLensSlow, testing::ValuesIn(every_lens()),
                          [](const auto& each) {
                              std::string name = each.param;
                              for (char& letter : name) {
@@ -359,6 +361,34 @@ TEST(MainWindow, RowsAreEditedByActions) {
     EXPECT_TRUE(window.prescription_panel().reason().contains("stop"));
     window.actions()["edit.move_down"].trigger();
     EXPECT_EQ(window.document().lens().stop.surface, 4U);
+}
+
+TEST(MainWindow, AspheresAreShownWhereThereAreSomeAndOnDemand) {
+    OpenWindow shown(test::tessar());
+    MainWindow& window = shown.window;
+    const QTableView& table = window.prescription_panel().table();
+    const auto is_hidden = [&] { return table.isColumnHidden(PrescriptionModel::aspheric); };
+    EXPECT_TRUE(QTest::qWaitFor(is_hidden));
+    window.actions()["view.aspheres"].trigger();
+    EXPECT_FALSE(is_hidden());
+    EXPECT_TRUE(set_cell(window, 0, PrescriptionModel::aspheric, "A4=1e-7, A6=-2e-11"));
+    EXPECT_EQ(window.document().lens().surfaces[0].aspheric, (std::vector{1e-7, -2e-11}));
+    window.actions()["view.aspheres"].trigger();
+    EXPECT_FALSE(is_hidden()) << "this lens has one now";
+}
+
+TEST(MainWindow, GlassNamesAreCompleted) {
+    OpenWindow shown(test::tessar());
+    MainWindow& window = shown.window;
+    const QString name = QString::fromStdString(bundled_glasses().glasses.front().name);
+    QLineEdit* editor = type_into_cell(window, 0, PrescriptionModel::medium, "");
+    ASSERT_NE(editor, nullptr);
+    ASSERT_NE(editor->completer(), nullptr);
+    QTest::keyClicks(editor, name.toLower());
+    EXPECT_GT(editor->completer()->completionCount(), 0);
+    editor->completer()->popup()->hide();
+    press_return(editor);
+    EXPECT_EQ(window.document().lens().surfaces[0].medium_after, bundled_glasses().glasses.front());
 }
 
 TEST(MainWindow, ASnapshotIsNotBlank) {

@@ -17,6 +17,7 @@
 #include "widgets/panels/empty_state.h"
 #include "widgets/panels/plain_table.h"
 #include "widgets/panels/prescription_delegate.h"
+#include "widgets/settings.h"
 
 namespace ghostlight {
 
@@ -116,6 +117,24 @@ void PrescriptionPanel::connect_actions(const Actions& actions) {
         }
     });
     on_row("edit.make_stop", [this](int row) { model_->make_stop(row); });
+
+    const auto on_columns = [this, &actions](const char* id, bool shown, void (*keep)(bool)) {
+        actions[id].setChecked(shown);
+        connect(&actions[id], &QAction::toggled, this, [this, keep](bool wanted) {
+            keep(wanted);
+            show_columns();
+        });
+    };
+    on_columns("view.aspheres", settings::shows_aspheres(), settings::set_shows_aspheres);
+    on_columns("view.comments", settings::shows_comments(), settings::set_shows_comments);
+    QHeaderView* header = table_->horizontalHeader();
+    header->setContextMenuPolicy(Qt::CustomContextMenu);
+    connect(header, &QWidget::customContextMenuRequested, this,
+            [header, &actions](const QPoint& at) {
+                QMenu menu;
+                actions.fill(menu, {"view.aspheres", "view.comments"});
+                menu.exec(header->mapToGlobal(at));
+            });
 }
 
 void PrescriptionPanel::show_menu(const QPoint& position, const Actions& actions) {
@@ -139,17 +158,19 @@ void PrescriptionPanel::follow_document() {
 }
 
 void PrescriptionPanel::show_columns() {
-    const auto& surfaces = document_.lens().surfaces;
-    const auto any = [&](auto property) {
-        return std::any_of(surfaces.begin(), surfaces.end(), property);
-    };
-    // What most lenses do not have takes no room unless this one does.
-    const bool aspheric =
-        any([](const Surface& s) { return s.conic != 0.0 || !s.aspheric.empty(); });
+    const Prescription& lens = document_.lens();
+    bool aspheric = settings::shows_aspheres();
+    bool commented = settings::shows_comments();
+    // What most lenses do not have takes no room unless this one does. Nearly every lens says at
+    // its stop that it is the stop; that is no reason for a column.
+    for (std::size_t row = 0; row < lens.surfaces.size(); ++row) {
+        const Surface& surface = lens.surfaces[row];
+        aspheric = aspheric || surface.conic != 0.0 || !surface.aspheric.empty();
+        commented = commented || (!surface.comment.empty() && row != lens.stop.surface);
+    }
     table_->setColumnHidden(PrescriptionModel::conic, !aspheric);
     table_->setColumnHidden(PrescriptionModel::aspheric, !aspheric);
-    table_->setColumnHidden(PrescriptionModel::comment,
-                            !any([](const Surface& s) { return !s.comment.empty(); }));
+    table_->setColumnHidden(PrescriptionModel::comment, !commented);
     fit_columns(*table_);
 }
 

@@ -97,6 +97,10 @@ bool NumberField::eventFilter(QObject* watched, QEvent* event) {
             editor_->setText(shown_ + unit_);
             fit_width();
         }
+    } else if (event->type() == QEvent::ShortcutOverride &&
+               static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) {
+        event->accept();  // gives up this entry, before it means anything to the window
+        return true;
     } else if (event->type() == QEvent::KeyPress) {
         const int key = static_cast<QKeyEvent*>(event)->key();
         if (key == Qt::Key_Up || key == Qt::Key_Down) {
