@@ -103,8 +103,7 @@ GlassElement element_between(const Prescription& lens, const std::vector<double>
         ys.push_back(-rim);
     }
     std::ranges::sort(ys);
-    const auto repeated = std::ranges::unique(ys);
-    ys.erase(repeated.begin(), repeated.end());
+    ys.erase(std::unique(ys.begin(), ys.end()), ys.end());
     for (const double y : ys) {
         element.slices.push_back({y, front_face.z(y), back_face.z(y)});
     }
