@@ -83,7 +83,12 @@ int PrescriptionModel::columnCount(const QModelIndex& parent) const {
 
 void PrescriptionModel::follow_document() {
     const Prescription& lens = document_.lens();
-    configuration_ = document_.scene().configuration;
+    const Scene& scene = document_.scene();
+    if (lens == shown_ && scene.configuration == configuration_ && scene.spectrum == spectrum_) {
+        return;  // the light moves, and nothing here changes
+    }
+    configuration_ = scene.configuration;
+    spectrum_ = scene.spectrum;
     // Every row's number changes below an insertion, so that no row is just where it was, moved.
     const bool other_rows = shown_.surfaces.size() != lens.surfaces.size();
     if (other_rows) {
@@ -94,7 +99,7 @@ void PrescriptionModel::follow_document() {
     for (std::size_t row = 0; row < shown_.surfaces.size(); ++row) {
         const Surface& surface = shown_.surfaces[row];
         chips_.push_back(coating_color(medium_before(shown_, row), surface.coating,
-                                       surface.medium_after, document_.scene().spectrum));
+                                       surface.medium_after, spectrum_));
     }
     if (other_rows) {
         endResetModel();

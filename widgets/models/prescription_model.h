@@ -65,6 +65,7 @@ class PrescriptionModel : public QAbstractTableModel {
     Document& document_;
     Prescription shown_;  ///< what views have been told of
     std::string configuration_;
+    Spectrum spectrum_;
     std::vector<std::optional<QColor>> chips_;
     int marked_row_ = -1;
 };

@@ -123,6 +123,17 @@ TEST_F(PrescriptionModelTest, ChipsForWhatReflects) {
     EXPECT_NEAR(chip(0).red(), chip(0).blue(), 12);
 }
 
+TEST_F(PrescriptionModelTest, AMovingLightIsNoNews) {
+    QSignalSpy changed(&model, &PrescriptionModel::dataChanged);
+    Scene scene = document.scene();
+    scene.light.field_deg = 3.0;
+    document.edit_scene(scene, "move the light");
+    EXPECT_EQ(changed.count(), 0);
+    scene.spectrum = Monochromatic{450.0};
+    document.edit_scene(scene, "change spectrum");
+    EXPECT_EQ(changed.count(), 1);  // the chips
+}
+
 TEST_F(PrescriptionModelTest, HeadersSayUnitsAndSigns) {
     const auto header = [&](int column, int role) {
         return model.headerData(column, Qt::Horizontal, role).toString();
