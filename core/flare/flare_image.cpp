@@ -13,10 +13,16 @@ namespace ghostlight {
 namespace {
 
 constexpr int band_rows = 16;
+constexpr double color_margin = 0.04;  ///< of a pupil's breadth, when it is shared by wavelengths
 
 using Clock = std::chrono::steady_clock;
 double ms_since(Clock::time_point began) {
     return std::chrono::duration<double, std::milli>(Clock::now() - began).count();
+}
+
+PupilBox widened(const PupilBox& box, double share) {
+    const double du = share * (box.u1_mm - box.u0_mm), dv = share * (box.v1_mm - box.v0_mm);
+    return {box.u0_mm - du, box.u1_mm + du, box.v0_mm - dv, box.v1_mm + dv};
 }
 
 /// Mesh of one ghost at one wavelength, its edges and points sorted by the bands they touch.
@@ -84,6 +90,8 @@ std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequ
     const BeamFrame frame = beam_frame(request.light);
     const PixelFrame pixels = pixel_frame(systems.front().sensor_width_mm,
                                           systems.front().sensor_height_mm, request.width_px);
+    const double reach_mm = std::hypot(systems.front().sensor_width_mm,
+                                       systems.front().sensor_height_mm);
     const int bands = (pixels.height_px + band_rows - 1) / band_rows;
 
     FlareImage image;
@@ -95,11 +103,13 @@ std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequ
 
     // One task per ghost and wavelength; task t is ghost t / samples at wavelength t % samples.
     const std::size_t tasks = ghosts.size() * samples.size();
-    std::vector<Pupil> pupils(tasks);
-    bool finished = parallel_for(tasks, request.threads, stop, [&](std::size_t t) {
-        const OpticalSystem& system = systems[t % samples.size()];
-        pupils[t] = find_pupil(system, trace_path<float>(system, ghosts[t / samples.size()]), frame,
-                               PupilSearch::quick);
+    std::vector<Pupil> pupils(ghosts.size());
+    bool finished = parallel_for(ghosts.size(), request.threads, stop, [&](std::size_t g) {
+        // Colour moves a pupil's edge by far less than a cell: one wavelength finds it for all.
+        const OpticalSystem& system = systems[samples.size() / 2];
+        pupils[g] =
+            find_pupil(system, trace_path<float>(system, ghosts[g]), frame, PupilSearch::quick);
+        if (samples.size() > 1) pupils[g].box = widened(pupils[g].box, color_margin);
     });
     if (!finished) return std::nullopt;
     image.times.bounds_ms = ms_since(began);
@@ -107,13 +117,18 @@ std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequ
     const auto traced = Clock::now();
     std::vector<BandedMesh> meshes(tasks);
     finished = parallel_for(tasks, request.threads, stop, [&](std::size_t t) {
-        if (pupils[t].empty()) return;
+        const Pupil& pupil = pupils[t / samples.size()];
+        if (pupil.empty()) return;
         const OpticalSystem& system = systems[t % samples.size()];
         const GhostPath& ghost = ghosts[t / samples.size()];
-        const auto grid = weighted_grid(system, trace_path<float>(system, ghost), frame,
-                                        pupils[t].box, request.grid);
+        const auto path = trace_path<float>(system, ghost);
+        const auto probe = probe_bundle(system, path, frame, pupil.box);
+        const int cells = request.grid > 0
+                              ? request.grid
+                              : cells_for_bend(probe, request.bend_px * pixels.pitch_mm, reach_mm);
+        const auto grid = weighted_grid(system, path, frame, pupil.box, probe, cells);
         meshes[t].mesh = ghost_mesh(grid, pixels, 1.0);
-        meshes[t].rays = grid.rays();
+        meshes[t].rays = grid.rays() + probe.rays.size();
         sort_into_bands(meshes[t], pixels, bands);
     });
     if (!finished) return std::nullopt;
@@ -165,9 +180,10 @@ std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequ
     image.times.raster_ms = ms_since(rastered);
     for (std::size_t t = 0; t < tasks; ++t) {
         image.flux_mm2 += samples[t % samples.size()].weight * meshes[t].mesh.flux_mm2;
-        image.rays += meshes[t].rays + pupils[t].rays;
+        image.rays += meshes[t].rays;
         image.cells += meshes[t].mesh.cells;
     }
+    for (const Pupil& pupil : pupils) image.rays += pupil.rays;
     double sum = 0.0;
     for (const float value : image.irradiance) sum += static_cast<double>(value);
     image.flux_on_sensor_mm2 = sum * pixels.pixel_area_mm2();

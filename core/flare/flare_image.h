@@ -17,7 +17,8 @@ struct FlareRequest {
     LightDirection light;
     Spectrum spectrum = Monochromatic{};
     int width_px = 1280;  ///< the height follows from the sensor's shape
-    int grid = 32;        ///< cells across each ghost's pupil
+    double bend_px = 0.2;   ///< each ghost's grid is as fine as keeps its map bilinear to this
+    int grid = 0;           ///< cells across every ghost's pupil; 0 = by bend_px
     int spectral_samples = 5;             ///< used when the light is not of one wavelength
     std::vector<GhostPath> highlighted;   ///< these ghosts also go into FlareImage::highlight
     unsigned threads = 0;

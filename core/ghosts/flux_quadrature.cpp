@@ -234,9 +234,10 @@ void PathQuadrature::refine(PathFlux& flux, double share, double floor_mm2,
 GhostMesh PathQuadrature::mesh(PathFlux& flux, const PixelFrame& pixels, int cells,
                                double gain) const {
     if (flux.cells.empty()) return {};
-    const auto grid = weighted_grid(system_, trace_path<float>(system_, ghost_), frame_,
-                                    flux.pupil.box, cells);
-    flux.rays += grid.rays();
+    const auto path = trace_path<float>(system_, ghost_);
+    const auto probe = probe_bundle(system_, path, frame_, flux.pupil.box);
+    const auto grid = weighted_grid(system_, path, frame_, flux.pupil.box, probe, cells);
+    flux.rays += grid.rays() + probe.rays.size();
     double on_grid = 0.0;
     for_each_piece(grid, [&](const BundleGrid<float>&, const Piece& piece) {
         on_grid += flux_mm2(piece);

@@ -10,27 +10,34 @@ constexpr int probe_cells = 8;
 constexpr int split_cells = 4;          ///< across a singular cell
 constexpr double smooth_enough = 0.01;  ///< roughness of weights that may be interpolated
 
-/// How far the weights of a probe's odd nodes are from the mean of their even neighbours, flux for
-/// flux: about four times the error of interpolating the probe bilinearly.
-double roughness(const RayField<float>& probe) {
+/// Calls visit(before, node, after) for every odd node of a probe that passes with its two even
+/// neighbours, along either direction.
+template <class Visit>
+void for_each_triple(const RayField<float>& probe, Visit visit) {
     constexpr int side = probe_cells + 1;
-    double change = 0.0, sum = 0.0;
     auto passes = [&](std::size_t node) {
         return std::ranges::all_of(probe.clearances, [&](const auto& c) { return c[node] >= 0.0F; });
     };
     for (int j = 0; j < side; j += 2)
         for (int i = 1; i < side; i += 2)
             for (const bool along_u : {true, false}) {
-                const int step = along_u ? 1 : side;
+                const auto step = static_cast<std::size_t>(along_u ? 1 : side);
                 const auto node = static_cast<std::size_t>(along_u ? j * side + i : i * side + j);
-                const auto before = node - static_cast<std::size_t>(step);
-                const auto after = node + static_cast<std::size_t>(step);
-                if (!passes(before) || !passes(node) || !passes(after)) continue;
-                const auto& w = probe.rays.weight;
-                change += std::abs(static_cast<double>(w[node]) -
-                                   0.5 * static_cast<double>(w[before] + w[after]));
-                sum += static_cast<double>(w[node]);
+                if (passes(node - step) && passes(node) && passes(node + step))
+                    visit(node - step, node, node + step);
             }
+}
+
+/// How far the weights of a probe's odd nodes are from the mean of their even neighbours, flux for
+/// flux: about four times the error of interpolating the probe bilinearly.
+double roughness(const RayField<float>& probe) {
+    double change = 0.0, sum = 0.0;
+    const auto& w = probe.rays.weight;
+    for_each_triple(probe, [&](std::size_t before, std::size_t node, std::size_t after) {
+        change += std::abs(static_cast<double>(w[node]) -
+                           0.5 * static_cast<double>(w[before] + w[after]));
+        sum += static_cast<double>(w[node]);
+    });
     return sum > 0.0 ? change / sum : 1.0;
 }
 
@@ -70,11 +77,38 @@ void fill_weights(const RayField<float>& probe, BundleGrid<float>& grid) {
 
 }  // namespace
 
-SplitGrid<float> weighted_grid(const OpticalSystem& system, const TracePath<float>& path,
-                               const BeamFrame& frame, const PupilBox& box, int cells) {
+RayField<float> probe_bundle(const OpticalSystem& system, const TracePath<float>& path,
+                             const BeamFrame& frame, const PupilBox& box) {
     Bundle<float> points;
     lay_grid(box, probe_cells, points);
-    const auto probe = trace_field(system, path, frame, std::move(points), Weights::polarised);
+    return trace_field(system, path, frame, std::move(points), Weights::polarised);
+}
+
+int cells_for_bend(const RayField<float>& probe, double bend_mm, double reach_mm) {
+    constexpr int unknown_cells = 32, finest_cells = 256;
+    double sum = 0.0;
+    int count = 0;
+    const auto &x = probe.rays.x_mm, &y = probe.rays.y_mm;
+    for_each_triple(probe, [&](std::size_t before, std::size_t node, std::size_t after) {
+        const double at = std::hypot(static_cast<double>(x[node]), static_cast<double>(y[node]));
+        if (at > reach_mm) return;
+        const double dx = static_cast<double>(x[node]) -
+                          0.5 * (static_cast<double>(x[before]) + static_cast<double>(x[after]));
+        const double dy = static_cast<double>(y[node]) -
+                          0.5 * (static_cast<double>(y[before]) + static_cast<double>(y[after]));
+        sum += dx * dx + dy * dy;
+        ++count;
+    });
+    if (count == 0) return unknown_cells;
+    // The triples are those of a grid half as fine.
+    const double probe_bend_mm = 0.25 * std::sqrt(sum / count);
+    const double cells = probe_cells * std::sqrt(probe_bend_mm / bend_mm);
+    return std::clamp(8 * static_cast<int>(std::ceil(cells / 8.0)), probe_cells, finest_cells);
+}
+
+SplitGrid<float> weighted_grid(const OpticalSystem& system, const TracePath<float>& path,
+                               const BeamFrame& frame, const PupilBox& box,
+                               const RayField<float>& probe, int cells) {
     const bool smooth = roughness(probe) < smooth_enough;
     auto grid = trace_grid(system, path, frame, box, cells, split_cells,
                            smooth ? Weights::none : Weights::polarised);
