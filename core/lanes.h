@@ -64,6 +64,12 @@ GHOSTLIGHT_INLINE V larger(const V& a, const V& b) {
     return select(a < b, b, a);
 }
 
+/// |x|, for Jets too.
+template <class V>
+GHOSTLIGHT_INLINE V magnitude(const V& x) {
+    return select(x < V(Lane<V>(0)), V(-x), x);
+}
+
 /// Square root that is 0 for negative arguments.
 template <class V>
 GHOSTLIGHT_INLINE V sqrt_or_zero(const V& x) {

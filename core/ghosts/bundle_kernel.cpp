@@ -45,13 +45,19 @@ GHOSTLIGHT_INLINE Packet<Lanes<T>> begin(const BundleView<T>& b, std::size_t i) 
     return p;
 }
 
+/// The least margin so far, or where the ray first failed: what comes after means nothing.
+template <class V>
+GHOSTLIGHT_INLINE void narrow(V& margin, const V& next) {
+    margin = select(margin < V(Lane<V>(0)), margin, smaller(margin, next));
+}
+
 template <int mode, class T>
 GHOSTLIGHT_INLINE void pass(const BundleView<T>& b, std::size_t i, const TraceStep<T>& step,
                             int crossing, int reflection, Packet<Lanes<T>>& p) {
     using V = Lanes<T>;
     const Meeting<V> meeting = meet(step, b.aspheric, p.margin, p.ray);
-    p.margin = smaller(p.margin, smaller(meeting.turned_margin,
-                                         smaller(meeting.miss_margin, meeting.hemisphere_margin)));
+    narrow(p.margin, smaller(meeting.turned_margin,
+                             smaller(meeting.miss_margin, meeting.hemisphere_margin)));
     const Vec3<V>& at = p.ray.position;
     if (step.at_stop) {
         store(at.x, b.stop_u[crossing] + i);
@@ -63,7 +69,7 @@ GHOSTLIGHT_INLINE void pass(const BundleView<T>& b, std::size_t i, const TraceSt
     const Vec3<V> before = p.ray.direction;
     const V cos2_squared = turn(step, meeting, p.ray);
     if (!step.reflects)
-        p.margin = smaller(p.margin, cos2_squared);
+        narrow(p.margin, cos2_squared);
     else if (reflection < 2)
         store(cos2_squared, b.onset[reflection] + i);
     if constexpr (mode != no_weights) {
@@ -83,7 +89,8 @@ GHOSTLIGHT_INLINE void finish(const BundleView<T>& b, std::size_t i, Packet<Lane
     using V = Lanes<T>;
     using std::sqrt;
     const V zero{T(0)};
-    V margin = smaller(p.margin, p.ray.direction.z);
+    V margin = p.margin;
+    narrow(margin, p.ray.direction.z);
     const V t = -(p.ray.position.z + b.sensor_gap_mm) / p.ray.direction.z;
     V x = p.ray.position.x + t * p.ray.direction.x;
     V y = p.ray.position.y + t * p.ray.direction.y;
@@ -92,13 +99,13 @@ GHOSTLIGHT_INLINE void finish(const BundleView<T>& b, std::size_t i, Packet<Lane
         weight = T(0.5) * (p.jones.intensity(0) + p.jones.intensity(1));
     if constexpr (mode == no_weights) weight = zero;
     // What went wild far outside the bundle must not reach any sum.
-    const V check = x + y + weight + p.average + p.r2_rel + margin;
+    const V check = x + y + weight + p.average + p.r2_rel;
     const auto lost = !(check - check == zero);
     store(select(lost, zero, x), b.x + i);
     store(select(lost, zero, y), b.y + i);
     store(select(lost, zero, weight), b.weight + i);
     store(select(lost, zero, p.average), b.weight_average + i);
-    store(select(lost, V(T(-1)), margin), b.margin + i);
+    store(select(lost, smaller(margin, V(T(-1e-3))), margin), b.margin + i);
     store(V(sqrt(select(lost, V(T(4)), p.r2_rel))), b.r_rel + i);
 }
 

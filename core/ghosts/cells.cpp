@@ -16,11 +16,15 @@ RayField<T> trace_field(const OpticalSystem& system, const TracePath<T>& path,
     std::vector<T>& clear = field.clearances.emplace_back(count);
     for (std::size_t i = 0; i < count; ++i) clear[i] = T(1) - field.rays.r_rel[i];
     for (std::size_t k = 0; k < static_cast<std::size_t>(field.rays.stop_crossings); ++k) {
-        std::vector<T>& open = field.clearances.emplace_back(count);
         const auto& u = field.rays.stop_u_mm[k];
         const auto& v = field.rays.stop_v_mm[k];
-        for (std::size_t i = 0; i < count; ++i)
-            open[i] = static_cast<T>(stop_margin(system.stop_mask, u[i], v[i]));
+        for (int edge = 0; edge < stop_edges(system.stop_mask); ++edge) {
+            std::vector<T>& open = field.clearances.emplace_back(count);
+            for (std::size_t i = 0; i < count; ++i)
+                open[i] = static_cast<T>(stop_margin(system.stop_mask, edge,
+                                                     static_cast<double>(u[i]),
+                                                     static_cast<double>(v[i])));
+        }
     }
     return field;
 }
@@ -109,6 +113,7 @@ Piece clip_triangle(const RayField<T>& field, const TriangleNodes& nodes, int tr
         if (f[0] >= 0.0 && f[1] >= 0.0 && f[2] >= 0.0) continue;
         piece.whole = false;
         if (f[0] < 0.0 && f[1] < 0.0 && f[2] < 0.0) return piece;
+        if (count + 6 > Piece::max_corners) break;
         auto value = [&](const Corner& c) {
             return c.share[0] * f[0] + c.share[1] * f[1] + c.share[2] * f[2];
         };

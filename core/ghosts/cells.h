@@ -15,7 +15,9 @@ struct PieceCorner {
 /// A convex piece of one triangle of a bundle's grid that passes everywhere: clipped where
 /// interpolated clearances, stop margins or validity cross zero.
 struct Piece {
-    static constexpr int max_corners = 16;
+    /// A convex polygon gains at most one corner per cut: 3, plus validity, clearance, the
+    /// sensor's 4 sides and up to 3 crossings of a stop of up to 13 blades; more are not cut.
+    static constexpr int max_corners = 48;
     PieceCorner corners[max_corners];
     int count = 0;
     int triangle = 0;   ///< 2 × cell + (0 lower half, 1 upper half)

@@ -9,7 +9,7 @@ namespace ghostlight {
 namespace {
 
 constexpr std::size_t most_rays = 400'000;  ///< per path and wavelength
-constexpr int deepest_level = 10;           ///< splits below the pupil search's cells
+constexpr int deepest_level = 10;           ///< splits below the pupil search's cells: 24 · 2²⁶ fit
 
 /// First and second moments of weight dA over a piece: the edge midpoints' rule on a fan of
 /// triangles, exact for quadratics.

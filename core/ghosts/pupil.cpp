@@ -24,7 +24,7 @@ constexpr Effort quick{12, 1, 40, 600};
 
 constexpr double blind_clearance = 5.0;  ///< r_rel beside a failing corner that may still fall to 1
 constexpr double first_level_dip = 0.15;   ///< of r_rel inside a cell; falls fourfold a level
-constexpr int finest_level = 12;
+constexpr int finest_level = 16;
 
 std::uint64_t key_of(std::uint32_t i, std::uint32_t j) { return (std::uint64_t{j} << 32) | i; }
 

@@ -43,14 +43,13 @@ GHOSTLIGHT_INLINE Complex<V> quotient(const Complex<V>& a, const Complex<V>& b) 
 /// The root with Im ≥ 0.
 template <class V>
 GHOSTLIGHT_INLINE Complex<V> upper_sqrt(const Complex<V>& a) {
-    using std::fabs;
     using std::sqrt;
     const V modulus = sqrt(norm(a));
     const V zero{Lane<V>(0)};
     const V half{Lane<V>(0.5)};
     // The larger of the two parts comes without cancellation, the other from their product.
-    const V big = sqrt_or_zero(V(half * (modulus + fabs(a.re))));
-    const V small = select(big > zero, V(half * fabs(a.im) / big), zero);
+    const V big = sqrt_or_zero(V(half * (modulus + magnitude(a.re))));
+    const V small = select(big > zero, V(half * magnitude(a.im) / big), zero);
     const V re = select(a.re >= zero, big, small);
     const V im = select(a.re >= zero, small, big);
     return {select(a.im >= zero, re, V(-re)), im};
@@ -68,13 +67,12 @@ template <class V>
 GHOSTLIGHT_INLINE Phase<V, V> phase_of(const V& x) {
     using std::cos;
     using std::exp;
-    using std::fabs;
     using std::sin;
     using std::sqrt;
     using T = Lane<V>;
     const V zero{T(0)};
-    const auto small = fabs(x) < T(0.01);
-    const V a = sqrt(select(small, V(T(1)), V(fabs(x))));
+    const auto small = magnitude(x) < T(0.01);
+    const V a = sqrt(select(small, V(T(1)), V(magnitude(x))));
     Phase<V, V> phase{cos(a), V(sin(a) / a), zero};
     if (any(x < zero)) {
         const V e = exp(T(-2) * a);

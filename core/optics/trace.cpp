@@ -11,25 +11,20 @@
 
 namespace ghostlight {
 
-double stop_margin(const StopMask& mask, double u_mm, double v_mm) {
+int stop_edges(const StopMask& mask) { return mask.blades < 3 ? 1 : mask.blades; }
+
+double stop_margin(const StopMask& mask, int edge, double u_mm, double v_mm) {
     const double a = mask.semi_diameter_mm;
-    if (mask.blades < 3) return 1.0 - std::hypot(u_mm, v_mm) / a;
+    if (mask.blades < 3) return 1.0 - (u_mm * u_mm + v_mm * v_mm) / (a * a);
     const double half = std::numbers::pi / mask.blades;
-    double margin = 1.0;
-    for (int blade = 0; blade < mask.blades; ++blade) {
-        const double middle = mask.rotation_rad + half * (2 * blade + 1);
-        const double nx = std::cos(middle), ny = std::sin(middle);
-        double inside = a * std::cos(half) - (u_mm * nx + v_mm * ny);
-        if (mask.blade_curvature > 0.0) {
-            // An arc through the two corners, of radius a over the curvature.
-            const double radius = a / mask.blade_curvature;
-            const double back = std::sqrt(radius * radius - std::pow(a * std::sin(half), 2)) -
-                                a * std::cos(half);
-            inside = radius - std::hypot(u_mm + back * nx, v_mm + back * ny);
-        }
-        margin = std::min(margin, inside / a);
-    }
-    return margin;
+    const double middle = mask.rotation_rad + half * (2 * edge + 1);
+    const double nx = std::cos(middle), ny = std::sin(middle);
+    if (mask.blade_curvature <= 0.0) return std::cos(half) - (u_mm * nx + v_mm * ny) / a;
+    // An arc through the two corners.
+    const double radius = a / mask.blade_curvature;
+    const double back =
+        std::sqrt(radius * radius - std::pow(a * std::sin(half), 2)) - a * std::cos(half);
+    return (radius - std::hypot(u_mm + back * nx, v_mm + back * ny)) / a;
 }
 
 BeamFrame beam_frame(const LightDirection& light) {
@@ -60,7 +55,9 @@ std::string to_string(const RayStatus& status) {
 }
 
 bool stop_passes(const StopMask& mask, double u_mm, double v_mm) {
-    return stop_margin(mask, u_mm, v_mm) >= 0.0;
+    for (int edge = 0; edge < stop_edges(mask); ++edge)
+        if (stop_margin(mask, edge, u_mm, v_mm) < 0.0) return false;
+    return true;
 }
 
 Ray ray_at_entrance(const LightDirection& light, double px_mm, double py_mm) {

@@ -74,10 +74,14 @@ TracedRay trace_ray(const OpticalSystem& system, const GhostPath& path, const Ra
 /// The ray that crosses the plane z = 0 at (px, py) mm.
 Ray ray_at_entrance(const LightDirection& light, double px_mm, double py_mm);
 
-/// Distance inside the stop's edge over its semi-diameter: 1 at most, positive where it is open.
-/// A polygon's corners lie on the circle of the semi-diameter, the first at the rotation angle
-/// from +x; its edges are arcs of radius semi-diameter / blade_curvature.
-double stop_margin(const StopMask& mask, double u_mm, double v_mm);
+/// Edges of the stop: one for a round one, else one per blade.
+int stop_edges(const StopMask& mask);
+
+/// Positive inside one edge of the stop, 1 at most, smooth: 1 − r²/a² for a round stop of
+/// semi-diameter a; for a blade the distance from its edge over a. A polygon's corners lie on the
+/// circle of the semi-diameter, the first at the rotation angle from +x; its edges are arcs of
+/// radius semi-diameter / blade_curvature.
+double stop_margin(const StopMask& mask, int edge, double u_mm, double v_mm);
 
 /// True where the stop is open.
 bool stop_passes(const StopMask& mask, double u_mm, double v_mm);

@@ -75,7 +75,6 @@ GHOSTLIGHT_INLINE void sag_of(const TraceStep<T>& step, const T* a, const V& r2,
 template <class V, class T>
 void refine_asphere(const TraceStep<T>& step, const T* a, const V& margin, RayAt<V>& ray,
                     Meeting<V>& meeting) {
-    using std::fabs;
     using L = Lane<V>;
     const V zero{L(0)};
     const T clear = T(1) / step.inverse_clear;
@@ -95,13 +94,13 @@ void refine_asphere(const TraceStep<T>& step, const T* a, const V& margin, RayAt
     constexpr int rounds = is_single_precision<V> ? 5 : 10;
     for (int i = 0; i < rounds; ++i) {
         const V derivative = rate(ray.position);
-        const V steep = select(fabs(derivative) < L(1e-6), V(L(1)), derivative);
+        const V steep = select(magnitude(derivative) < L(1e-6), V(L(1)), derivative);
         const V move = smaller(V(clear), larger(V(-clear), V(-f / steep)));
         ray.position = along(ray.position, ray.direction, move);
         f = miss(ray.position);
-        if (!any(margin >= zero && fabs(f) > tolerance)) break;
+        if (!any(margin >= zero && magnitude(f) > tolerance)) break;
     }
-    const auto far = !(fabs(f) <= L(16) * tolerance);
+    const auto far = !(magnitude(f) <= L(16) * tolerance);
     if (any(far && margin >= zero)) {
         // A sign change about the conic's hit, within a clear radius either way.
         V low = V(-clear), high = V(clear);
@@ -120,10 +119,11 @@ void refine_asphere(const TraceStep<T>& step, const T* a, const V& margin, RayAt
                                select(far, found.y, ray.position.y),
                                select(far, found.z, ray.position.z));
         f = miss(ray.position);
-        const auto lost = far && !(bracketed && fabs(f) <= L(64) * tolerance);
-        meeting.miss_margin = select(lost, V(L(-1)), V(L(1)));
+        const auto lost = far && !(bracketed && magnitude(f) <= L(64) * tolerance);
+        meeting.miss_margin = select(lost, V(L(-1)), domain);
     } else {
-        meeting.miss_margin = select(far, V(L(-1)), V(L(1)));
+        // Beyond the conic's own edge there is no surface, whatever the series says.
+        meeting.miss_margin = select(far, V(L(-1)), domain);
     }
     meeting.hemisphere_margin = domain;
     const V gx = L(-2) * slope * ray.position.x;
