@@ -95,8 +95,8 @@ TEST(OpticalSystem, ConfigurationsOverrideThicknesses) {
 
 TEST(StopMask, RoundStopIsACircle) {
     const StopMask mask{2.0, 0, 0.0, 0.0};
-    EXPECT_DOUBLE_EQ(stop_margin(mask, 0.0, 0.0), 1.0);
-    EXPECT_NEAR(stop_margin(mask, 1.2, 1.6), 0.0, 1e-15);
+    EXPECT_DOUBLE_EQ(stop_margin(mask, 0, 0.0, 0.0), 1.0);
+    EXPECT_NEAR(stop_margin(mask, 0, 1.2, 1.6), 0.0, 1e-15);
     EXPECT_TRUE(stop_passes(mask, 1.99, 0.0));
     EXPECT_FALSE(stop_passes(mask, 1.5, 1.5));
 }

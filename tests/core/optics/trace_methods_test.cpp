@@ -13,14 +13,6 @@
 #include "core/units.h"
 #include "tests/support/optics_kit.h"
 
-// Ceres names the absolute value of a Jet only abs.
-namespace ceres {
-template <class T, int N>
-Jet<T, N> fabs(const Jet<T, N>& x) {
-    return abs(x);
-}
-}  // namespace ceres
-
 namespace ghostlight {
 namespace {
 
