@@ -32,8 +32,18 @@ double half_field_deg(const Prescription& configured) {
 }
 
 Scene default_scene(const Prescription& lens) {
+    // Well inside the picture's short side, where most of the flare is seen with its light.
     Scene scene;
-    scene.light.field_deg = std::min(10.0, std::round(half_field_deg(lens) * 6.0) / 10.0);
+    double inside_deg = 10.0;
+    try {
+        const double efl_mm = first_order(compile(lens, d_line_nm)).efl_mm;
+        if (std::isfinite(efl_mm) && efl_mm != 0.0)
+            inside_deg =
+                deg_from_rad(std::atan(0.35 * lens.sensor.height_mm / std::abs(efl_mm)));
+    } catch (const Error&) {
+    }
+    inside_deg = std::min({10.0, inside_deg, 0.6 * half_field_deg(lens)});
+    scene.light.field_deg = std::round(inside_deg * 10.0) / 10.0;
     return scene;
 }
 
