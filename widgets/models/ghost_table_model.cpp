@@ -43,6 +43,8 @@ constexpr std::array<ColumnText, GhostTableModel::column_count> columns = {{
     {"Rays", "rays", "rays", "Rays traced for this row's numbers."},
 }};
 
+/// A centroid closer to the axis than this is on it, but for rounding.
+constexpr double on_axis_mm = 1e-9;
 constexpr double bar_decades = 4.0;
 
 }  // namespace
@@ -104,6 +106,9 @@ QVariant GhostTableModel::data(const QModelIndex& index, int role) const {
                     return QString::fromStdString(name(ghost_row.path));
                 case magnitude:
                     return {};
+                case centroid_x:
+                case centroid_y:
+                    return significant(std::abs(value) < on_axis_mm ? 0.0 : value);
                 case rays:
                     return grouped(ghost_row.rays);
                 case on_sensor:

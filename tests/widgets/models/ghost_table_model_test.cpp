@@ -51,6 +51,10 @@ TEST_F(GhostTableModelTest, FourDigitsOnScreenAllOnCopy) {
     model.set_table(table({ghost(4, 2, 1.0 / 30.0)}));
     EXPECT_EQ(model.index(0, GhostTableModel::flux).data().toString(), "0.03333");
     EXPECT_EQ(model.index(0, GhostTableModel::centroid_y).data().toString(), "−0.3333");
+    GhostRow symmetric = ghost(7, 5, 0.01);
+    symmetric.centroid_x_mm = -1.66e-17;
+    model.set_table(table({ghost(4, 2, 1.0 / 30.0), symmetric}));
+    EXPECT_EQ(model.index(1, GhostTableModel::centroid_x).data().toString(), "0");
     const QStringList lines = model.clipboard_text({0}).split('\n', Qt::SkipEmptyParts);
     ASSERT_EQ(lines.size(), 2);
     EXPECT_EQ(lines[0].split('\t').size(), lines[1].split('\t').size());
