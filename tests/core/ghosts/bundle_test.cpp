@@ -133,6 +133,8 @@ TEST(Bundle, FloatLanesStayWithinATenthOfAPixel) {
 }
 
 TEST(Bundle, EveryLengthOfBundleGivesTheSameRays) {
+    // Rays are traced several packets at a time, the last ones alone, with other roundings.
+    constexpr double rounding = 1e-12;
     const OpticalSystem system = compile(bundled("nikkor_z_14_30_f4_wide"), d_line_nm);
     const BeamFrame frame = beam_frame({9.0, 90.0});
     const TracePath<double> path = trace_path<double>(system, {{9, 3}});
@@ -146,9 +148,9 @@ TEST(Bundle, EveryLengthOfBundleGivesTheSameRays) {
         ASSERT_EQ(part.size(), count);
         ASSERT_EQ(part.x_mm.size(), count);
         for (std::size_t i = 0; i < count; ++i) {
-            EXPECT_EQ(part.x_mm[i], whole.x_mm[i]);
-            EXPECT_EQ(part.weight[i], whole.weight[i]);
-            EXPECT_EQ(part.margin[i], whole.margin[i]);
+            EXPECT_NEAR(part.x_mm[i], whole.x_mm[i], rounding * (1.0 + std::abs(whole.x_mm[i])));
+            EXPECT_NEAR(part.weight[i], whole.weight[i], rounding);
+            EXPECT_NEAR(part.margin[i], whole.margin[i], rounding);
         }
     }
     Bundle<double> none;
