@@ -24,6 +24,8 @@ constexpr Effort quick{12, 1, 40, 600};
 
 constexpr double blind_clearance = 5.0;  ///< r_rel beside a failing corner that may still fall to 1
 constexpr double first_level_dip = 0.15;   ///< of r_rel inside a cell; falls fourfold a level
+constexpr double beside_failing_share = 3.0;  ///< how far stop coordinates may reach there
+constexpr int lone_corner_levels = 6;
 constexpr int finest_level = 16;
 
 std::uint64_t key_of(std::uint32_t i, std::uint32_t j) { return (std::uint64_t{j} << 32) | i; }
@@ -116,12 +118,15 @@ bool may_pass(const Nodes<T>& nodes, const PupilCell& cell, int level, double st
     clearance.widen(share);
     // r_rel is a maximum over surfaces and may dip between equal corners.
     if (clearance.low - std::ldexp(first_level_dip, -2 * level) > 1.0) return false;
-    if (valid < 4) return true;
+    // One valid corner alone says nothing about how far the stop coordinates reach.
+    if (valid == 1) return level <= lone_corner_levels;
+    if (valid < 4) share = beside_failing_share;
     for (std::size_t k = 0; k < static_cast<std::size_t>(rays.stop_crossings); ++k) {
         Range u, v;
         for (const std::size_t c : corner) {
-            u.add(rays.stop_u_mm[k][c]);
-            v.add(rays.stop_v_mm[k][c]);
+            if (rays.margin[c] < T(0)) continue;
+            u.add(static_cast<double>(rays.stop_u_mm[k][c]));
+            v.add(static_cast<double>(rays.stop_v_mm[k][c]));
         }
         u.widen(share);
         v.widen(share);
