@@ -13,6 +13,8 @@
 namespace ghostlight {
 namespace {
 
+constexpr double largest_index = 10.0;
+
 constexpr double inverse_square(double length_um) { return 1.0 / (length_um * length_um); }
 
 double index_squared_or_index(const FormulaGlass& glass, double um, bool& is_squared) {
@@ -67,7 +69,8 @@ struct IndexAt {
             (glass.nd - 1.0) / (glass.vd * (inverse_square(um_from_nm(f_line_nm)) -
                                             inverse_square(um_from_nm(c_line_nm))));
         const double n = glass.nd + slope * (inverse_square(um_from_nm(nm)) - d);
-        if (!(n >= 1.0)) refuse(n, "a model glass (nd, Vd) is meant for visible light");
+        if (!(n >= 1.0) || n > largest_index)
+            refuse(n, "a model glass (nd, Vd) is meant for visible light");
         return n;
     }
 
@@ -75,7 +78,7 @@ struct IndexAt {
         const bool below = glass.min_nm > 0.0 && nm < glass.min_nm;
         const bool above = glass.max_nm > 0.0 && nm > glass.max_nm;
         if (below || above)
-            throw Error({.problem = fmt::format("glass '{}' has no index at {} nm", name, nm),
+            throw Error({.problem = fmt::format("glass {} has no index at {} nm", label(), nm),
                          .file = {},
                          .where = {},
                          .found = fmt::format("{} nm", nm),
@@ -85,16 +88,20 @@ struct IndexAt {
         const double value = index_squared_or_index(glass, um_from_nm(nm), is_squared);
         if (!std::isfinite(value) || value <= 1.0)
             refuse(value, "the formula has a pole there");
-        return is_squared ? std::sqrt(value) : value;
+        const double n = is_squared ? std::sqrt(value) : value;
+        if (n > largest_index) refuse(n, "no glass has such an index");
+        return n;
     }
 
+    std::string label() const { return name.empty() ? "without a name" : "'" + name + "'"; }
+
     [[noreturn]] void refuse(double value, const char* why) const {
-        throw Error({.problem = fmt::format("glass '{}' has no usable index at {} nm ({})", name,
+        throw Error({.problem = fmt::format("glass {} has no usable index at {} nm ({})", label(),
                                             nm, why),
                      .file = {},
                      .where = {},
                      .found = fmt::format("{}", value),
-                     .expected = "an index above 1"});
+                     .expected = "an index from 1 to 10"});
     }
 };
 
