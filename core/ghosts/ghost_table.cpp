@@ -176,11 +176,12 @@ class TableBuilder {
     }
 
     /// On grids twice as fine until the peak settles: at a caustic it keeps growing for a while.
+    /// The coarsest set of the spectrum's nodes is enough for that.
     double peak(PathOverSpectrum& path, const GhostPath& ghost) const {
         double before = 0.0;
         for (int cells = coarsest_peak_grid;; cells *= 2) {
             std::vector<GhostMesh> meshes;
-            for (const SpectralSample& s : nested_samples(request_.spectrum, path.nodes))
+            for (const SpectralSample& s : nested_samples(request_.spectrum, first_nodes()))
                 meshes.push_back(quadrature(ghost, s.wavelength_nm)
                                      .mesh(path.at.at(s.wavelength_nm), pixels_, cells, s.weight));
             const double now = peak_of(meshes, pixels_);

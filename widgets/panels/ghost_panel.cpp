@@ -84,9 +84,11 @@ GhostPanel::GhostPanel(Selection& selection, const Actions& actions, QWidget* pa
       header_(new PanelHeader("Ghosts")),
       table_(make_table(filter_, this)),
       empty_(new EmptyState(what_is_here, "Open a lens…")),
+      working_(new EmptyState("Tracing the lens's ghosts…", QString())),
       pages_(new QStackedWidget) {
     pages_->addWidget(empty_);
     pages_->addWidget(table_);
+    pages_->addWidget(working_);
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
@@ -143,6 +145,7 @@ void GhostPanel::set_threshold(double share) {
 void GhostPanel::set_table(std::shared_ptr<const GhostTable> table) {
     const bool was_empty = model_->rowCount() == 0;
     failed_ = false;
+    is_working_ = false;
     selecting_ = true;  // rows may change their places, ghosts stay selected
     model_->set_table(std::move(table));
     filter_->invalidate();
@@ -157,18 +160,21 @@ void GhostPanel::set_table(std::shared_ptr<const GhostTable> table) {
 void GhostPanel::set_refining(double share) {
     progress_ = share;
     failed_ = false;
+    is_working_ = true;
     model_->set_stale(true);
     show_state();
 }
 
 void GhostPanel::set_failed() {
     failed_ = true;
+    is_working_ = false;
     model_->set_stale(true);
     show_state();
 }
 
 void GhostPanel::clear() {
     failed_ = false;
+    is_working_ = false;
     model_->set_table(nullptr);
     show_state();
 }
@@ -221,11 +227,14 @@ bool GhostPanel::is_refining() const { return model_->is_stale() && !failed_; }
 
 void GhostPanel::show_state() {
     const int all = model_->rowCount();
-    pages_->setCurrentIndex(model_->table() ? 1 : 0);
     if (!model_->table()) {
-        header_->set_state(QString());
+        pages_->setCurrentWidget(is_working_ ? working_ : empty_);
+        header_->set_state(is_working_ && progress_ > 0.0
+                               ? QStringLiteral("tracing %1 %").arg(qRound(progress_ * 100.0))
+                               : QString());
         return;
     }
+    pages_->setCurrentWidget(table_);
     const int listed = filter_->rowCount();
     QString state =
         listed == all ? QString::number(all) : QStringLiteral("%1 of %2").arg(listed).arg(all);

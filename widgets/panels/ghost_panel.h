@@ -52,6 +52,8 @@ class GhostPanel : public QWidget {
     PanelHeader* header_;
     QTableView* table_;
     EmptyState* empty_;
+    EmptyState* working_;  ///< until a lens's first table is there
+    bool is_working_ = false;
     QStackedWidget* pages_;
     double progress_ = 0.0;
     bool failed_ = false;
