@@ -42,8 +42,8 @@ GHOSTLIGHT_INLINE V select(bool condition, const V& yes, const V& no) {
     return condition ? yes : no;
 }
 template <class T, class A>
-GHOSTLIGHT_INLINE stdx::simd<T, A> select(const stdx::simd_mask<T, A>& condition, const stdx::simd<T, A>& yes,
-                        const stdx::simd<T, A>& no) {
+GHOSTLIGHT_INLINE stdx::simd<T, A> select(const stdx::simd_mask<T, A>& condition,
+                                          const stdx::simd<T, A>& yes, const stdx::simd<T, A>& no) {
     stdx::simd<T, A> result = no;
     stdx::where(condition, result) = yes;
     return result;

@@ -38,8 +38,7 @@ Scene default_scene(const Prescription& lens) {
     try {
         const double efl_mm = first_order(compile(lens, d_line_nm)).efl_mm;
         if (std::isfinite(efl_mm) && efl_mm != 0.0)
-            inside_deg =
-                deg_from_rad(std::atan(0.35 * lens.sensor.height_mm / std::abs(efl_mm)));
+            inside_deg = deg_from_rad(std::atan(0.35 * lens.sensor.height_mm / std::abs(efl_mm)));
     } catch (const Error&) {
     }
     inside_deg = std::min({10.0, inside_deg, 0.6 * half_field_deg(lens)});

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/flare/ghost_mesh.h"
-#include "core/ghosts/weighted_grid.h"
 #include "core/ghosts/pupil.h"
+#include "core/ghosts/weighted_grid.h"
 #include "core/parallel.h"
 
 namespace ghostlight {
@@ -28,7 +28,7 @@ PupilBox widened(const PupilBox& box, double share) {
 /// Mesh of one ghost at one wavelength, its edges and points sorted by the bands they touch.
 struct BandedMesh {
     GhostMesh mesh;
-    std::vector<std::uint32_t> first_edge, edges;    ///< edges of band b: [first[b], first[b+1])
+    std::vector<std::uint32_t> first_edge, edges;  ///< edges of band b: [first[b], first[b+1])
     std::vector<std::uint32_t> first_point, points;
     std::size_t rays = 0;
 };
@@ -50,7 +50,8 @@ void sort_by_band(const std::vector<Item>& items, int bands, RangeOf range_of,
     std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
     for (std::uint32_t i = 0; i < items.size(); ++i) {
         const BandRange range = range_of(items[i]);
-        for (int b = range.first; b <= range.last; ++b) sorted[next[static_cast<std::size_t>(b)]++] = i;
+        for (int b = range.first; b <= range.last; ++b)
+            sorted[next[static_cast<std::size_t>(b)]++] = i;
     }
 }
 
@@ -58,14 +59,18 @@ void sort_into_bands(BandedMesh& banded, const PixelFrame& pixels, int bands) {
     auto band_of = [&](double y) {
         return static_cast<int>(std::clamp(y, 0.0, pixels.height_px - 0.5)) / band_rows;
     };
-    sort_by_band(banded.mesh.edges, bands,
-                 [&](const RasterEdge& e) {
-                     return BandRange{band_of(std::min(e.y0, e.y1)), band_of(std::max(e.y0, e.y1))};
-                 },
-                 banded.first_edge, banded.edges);
-    sort_by_band(banded.mesh.points, bands,
-                 [&](const RasterPoint& p) { return BandRange{band_of(p.y), band_of(p.y)}; },
-                 banded.first_point, banded.points);
+    sort_by_band(
+        banded.mesh.edges, bands,
+        [&](const RasterEdge& e) {
+            return BandRange{band_of(std::min(e.y0, e.y1)), band_of(std::max(e.y0, e.y1))};
+        },
+        banded.first_edge, banded.edges);
+    sort_by_band(
+        banded.mesh.points, bands,
+        [&](const RasterPoint& p) {
+            return BandRange{band_of(p.y), band_of(p.y)};
+        },
+        banded.first_point, banded.points);
 }
 
 void add_band(const BandedMesh& banded, std::size_t band, BandRaster& raster) {
@@ -90,8 +95,8 @@ std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequ
     const BeamFrame frame = beam_frame(request.light);
     const PixelFrame pixels = pixel_frame(systems.front().sensor_width_mm,
                                           systems.front().sensor_height_mm, request.width_px);
-    const double reach_mm = std::hypot(systems.front().sensor_width_mm,
-                                       systems.front().sensor_height_mm);
+    const double reach_mm =
+        std::hypot(systems.front().sensor_width_mm, systems.front().sensor_height_mm);
     const int bands = (pixels.height_px + band_rows - 1) / band_rows;
 
     FlareImage image;
@@ -135,8 +140,8 @@ std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequ
     image.times.trace_ms = ms_since(traced);
 
     const auto rastered = Clock::now();
-    const std::size_t count = static_cast<std::size_t>(image.width_px) *
-                              static_cast<std::size_t>(image.height_px);
+    const std::size_t count =
+        static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px);
     image.irradiance.assign(count, 0.0F);
     image.rgb.assign(3 * count, 0.0F);
     if (!request.highlighted.empty()) image.highlight.assign(count, 0.0F);
@@ -144,38 +149,39 @@ std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequ
         return std::ranges::find(request.highlighted, ghosts[t / samples.size()]) !=
                request.highlighted.end();
     };
-    finished = parallel_for(static_cast<std::size_t>(bands), request.threads, stop, [&](std::size_t b) {
-        const int first_row = static_cast<int>(b) * band_rows;
-        const int rows = std::min(band_rows, pixels.height_px - first_row);
-        BandRaster raster(pixels.width_px, first_row, rows);
-        std::vector<double> values(static_cast<std::size_t>(pixels.width_px) *
-                                   static_cast<std::size_t>(rows));
-        const std::size_t offset = static_cast<std::size_t>(first_row) *
-                                   static_cast<std::size_t>(pixels.width_px);
-        auto put = [&](std::size_t s, bool highlight) {
-            raster.resolve(values);
-            for (std::size_t i = 0; i < values.size(); ++i) {
-                // What rounding leaves below zero is no light.
-                const float value =
-                    static_cast<float>(std::max(0.0, values[i]) * samples[s].weight);
-                image.irradiance[offset + i] += value;
-                float* rgb = &image.rgb[3 * (offset + i)];
-                rgb[0] += value * static_cast<float>(colors[s].r);
-                rgb[1] += value * static_cast<float>(colors[s].g);
-                rgb[2] += value * static_cast<float>(colors[s].b);
-                if (highlight) image.highlight[offset + i] += value;
+    finished =
+        parallel_for(static_cast<std::size_t>(bands), request.threads, stop, [&](std::size_t b) {
+            const int first_row = static_cast<int>(b) * band_rows;
+            const int rows = std::min(band_rows, pixels.height_px - first_row);
+            BandRaster raster(pixels.width_px, first_row, rows);
+            std::vector<double> values(static_cast<std::size_t>(pixels.width_px) *
+                                       static_cast<std::size_t>(rows));
+            const std::size_t offset =
+                static_cast<std::size_t>(first_row) * static_cast<std::size_t>(pixels.width_px);
+            auto put = [&](std::size_t s, bool highlight) {
+                raster.resolve(values);
+                for (std::size_t i = 0; i < values.size(); ++i) {
+                    // What rounding leaves below zero is no light.
+                    const float value =
+                        static_cast<float>(std::max(0.0, values[i]) * samples[s].weight);
+                    image.irradiance[offset + i] += value;
+                    float* rgb = &image.rgb[3 * (offset + i)];
+                    rgb[0] += value * static_cast<float>(colors[s].r);
+                    rgb[1] += value * static_cast<float>(colors[s].g);
+                    rgb[2] += value * static_cast<float>(colors[s].b);
+                    if (highlight) image.highlight[offset + i] += value;
+                }
+            };
+            for (std::size_t s = 0; s < samples.size(); ++s) {
+                for (const bool highlight : {false, true}) {
+                    if (highlight && request.highlighted.empty()) continue;
+                    for (std::size_t t = s; t < tasks; t += samples.size())
+                        if (!meshes[t].first_edge.empty() && is_highlighted(t) == highlight)
+                            add_band(meshes[t], b, raster);
+                    put(s, highlight);
+                }
             }
-        };
-        for (std::size_t s = 0; s < samples.size(); ++s) {
-            for (const bool highlight : {false, true}) {
-                if (highlight && request.highlighted.empty()) continue;
-                for (std::size_t t = s; t < tasks; t += samples.size())
-                    if (!meshes[t].first_edge.empty() && is_highlighted(t) == highlight)
-                        add_band(meshes[t], b, raster);
-                put(s, highlight);
-            }
-        }
-    });
+        });
     if (!finished) return std::nullopt;
     image.times.raster_ms = ms_since(rastered);
     for (std::size_t t = 0; t < tasks; ++t) {

@@ -16,11 +16,11 @@ namespace ghostlight {
 struct FlareRequest {
     LightDirection light;
     Spectrum spectrum = Monochromatic{};
-    int width_px = 1280;  ///< the height follows from the sensor's shape
-    double bend_px = 0.2;   ///< each ghost's grid is as fine as keeps its map bilinear to this
-    int grid = 0;           ///< cells across every ghost's pupil; 0 = by bend_px
-    int spectral_samples = 5;             ///< used when the light is not of one wavelength
-    std::vector<GhostPath> highlighted;   ///< these ghosts also go into FlareImage::highlight
+    int width_px = 1280;       ///< the height follows from the sensor's shape
+    double bend_px = 0.2;      ///< each ghost's grid is as fine as keeps its map bilinear to this
+    int grid = 0;              ///< cells across every ghost's pupil; 0 = by bend_px
+    int spectral_samples = 5;  ///< used when the light is not of one wavelength
+    std::vector<GhostPath> highlighted;  ///< these ghosts also go into FlareImage::highlight
     unsigned threads = 0;
 };
 
@@ -34,10 +34,11 @@ struct FlareTimes {
 struct FlareImage {
     int width_px = 0, height_px = 0;
     double sensor_width_mm = 36.0, sensor_height_mm = 24.0;
-    std::vector<float> rgb;        ///< 3 per pixel, linear Rec.709, the light itself is (1, 1, 1)
-    std::vector<float> irradiance; ///< 1 per pixel: mean over the pixel, per E0
-    std::vector<float> highlight;  ///< 1 per pixel: irradiance of the highlighted ghosts; empty if none asked
-    double flux_mm2 = 0.0;         ///< of all ghosts together, on the whole sensor plane
+    std::vector<float> rgb;         ///< 3 per pixel, linear Rec.709, the light itself is (1, 1, 1)
+    std::vector<float> irradiance;  ///< 1 per pixel: mean over the pixel, per E0
+    std::vector<float>
+        highlight;  ///< 1 per pixel: irradiance of the highlighted ghosts; empty if none asked
+    double flux_mm2 = 0.0;  ///< of all ghosts together, on the whole sensor plane
     double flux_on_sensor_mm2 = 0.0;
     std::size_t ghosts = 0, rays = 0, cells = 0;
     FlareTimes times;
@@ -45,7 +46,8 @@ struct FlareImage {
 
 /// Traces every two-reflection ghost in uniform bundles and accumulates them with exact pixel
 /// coverage, so that flux is conserved and folded sheets add. The polarisation is carried, on a
-/// coarser grid where the weights are smooth. Bit-identical for any number of threads. Returns nothing when stopped.
+/// coarser grid where the weights are smooth. Bit-identical for any number of threads. Returns
+/// nothing when stopped.
 std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequest& request,
                                        std::stop_token stop = {});
 

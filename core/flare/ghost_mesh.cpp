@@ -30,9 +30,8 @@ class MeshBuilder {
         average_irradiance();
         const int triangles = 2 * grid_.cells * grid_.cells;
         values_.assign(static_cast<std::size_t>(triangles), {});
-        for_each_piece(all_, [&](const BundleGrid<T>& on, const Piece& piece) {
-            add(piece, &on == &grid_);
-        });
+        for_each_piece(
+            all_, [&](const BundleGrid<T>& on, const Piece& piece) { add(piece, &on == &grid_); });
         add_shared_edges();
         return std::move(mesh_);
     }
@@ -69,10 +68,9 @@ class MeshBuilder {
             bool valid = true;
             for (const int node : n.node) valid = valid && rays_.margin[idx(node)] >= T(0);
             if (!valid) continue;
-            const double area =
-                std::abs(signed_area(nodes_[idx(n.node[0])], nodes_[idx(n.node[1])],
-                                     nodes_[idx(n.node[2])])) *
-                frame_.pixel_area_mm2();
+            const double area = std::abs(signed_area(nodes_[idx(n.node[0])], nodes_[idx(n.node[1])],
+                                                     nodes_[idx(n.node[2])])) *
+                                frame_.pixel_area_mm2();
             for (const int node : n.node) {
                 area_out[idx(node)] += area;
                 ++count[idx(node)];
@@ -149,9 +147,9 @@ class MeshBuilder {
         double integral = 0.0;
         for (int k = 1; k + 1 < piece.count; ++k) {
             const Point &a = corner[0], &b = corner[k], &c = corner[k + 1];
-            integral += std::abs(signed_area(a, b, c)) *
-                        (value.e + value.gx * (a.x + b.x + c.x) / 3.0 +
-                         value.gy * (a.y + b.y + c.y) / 3.0);
+            integral +=
+                std::abs(signed_area(a, b, c)) *
+                (value.e + value.gx * (a.x + b.x + c.x) / 3.0 + value.gy * (a.y + b.y + c.y) / 3.0);
         }
         if (!(integral > 0.0)) return constant;
         return (flux_px / integral) * value;
@@ -163,7 +161,8 @@ class MeshBuilder {
         double longest = -1.0;
         for (int a = 0; a < count; ++a)
             for (int b = a + 1; b < count; ++b) {
-                const double length = std::hypot(corner[b].x - corner[a].x, corner[b].y - corner[a].y);
+                const double length =
+                    std::hypot(corner[b].x - corner[a].x, corner[b].y - corner[a].y);
                 if (length > longest) {
                     longest = length;
                     from = a;
@@ -204,8 +203,7 @@ class MeshBuilder {
             for (int i = 0; i <= across; ++i) {
                 if (i < across)
                     emit(node(i, j), node(i + 1, j), value(i, j, 0) - value(i, j - 1, 1));
-                if (j < across)
-                    emit(node(i, j + 1), node(i, j), left(i, j) - right(i - 1, j));
+                if (j < across) emit(node(i, j + 1), node(i, j), left(i, j) - right(i - 1, j));
                 if (i < across && j < across) {
                     const LinearValue across_diagonal = value(i, j, 0) - value(i, j, 1);
                     if (mirrored(i))

@@ -75,8 +75,9 @@ void BandRaster::add(const RasterEdge& edge) {
     const double dxdy = (xb - xa) / (yb - ya);
     const double y_origin = ya, x_origin = xa;
     auto x_of = [&](double y) {
-        return y >= yb ? xb : std::clamp(x_origin + (y - y_origin) * dxdy, std::min(x_origin, xb),
-                                         std::max(x_origin, xb));
+        return y >= yb ? xb
+                       : std::clamp(x_origin + (y - y_origin) * dxdy, std::min(x_origin, xb),
+                                    std::max(x_origin, xb));
     };
     if (ya < bottom) {
         xa = x_of(bottom);
@@ -107,8 +108,8 @@ void BandRaster::add_point(double x, double y, double flux) {
 void BandRaster::resolve(std::span<double> pixels) {
     double* out = pixels.data();
     for (int row = 0; row < row_count_; ++row) {
-        Cell* cells = cells_.data() +
-                      static_cast<std::size_t>(row) * static_cast<std::size_t>(width_ + 2);
+        Cell* cells =
+            cells_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(width_ + 2);
         double level = 0.0, slope = 0.0;
         for (int i = 0; i < width_; ++i) {
             level += cells[i].level;

@@ -44,9 +44,9 @@ void trace_bundle(const TracePath<T>& path, const BeamFrame& frame, Weights weig
     pad(bundle.u_mm);
     pad(bundle.v_mm);
     bundle.stop_crossings = path.stop_crossings;
-    for (auto* channel : {&bundle.x_mm, &bundle.y_mm, &bundle.weight, &bundle.weight_average, &bundle.margin,
-                          &bundle.r_rel, &bundle.reflectance[0], &bundle.reflectance[1],
-                          &bundle.onset[0], &bundle.onset[1]})
+    for (auto* channel : {&bundle.x_mm, &bundle.y_mm, &bundle.weight, &bundle.weight_average,
+                          &bundle.margin, &bundle.r_rel, &bundle.reflectance[0],
+                          &bundle.reflectance[1], &bundle.onset[0], &bundle.onset[1]})
         channel->resize(padded);
     T* stop_u[max_stop_crossings] = {};
     T* stop_v[max_stop_crossings] = {};

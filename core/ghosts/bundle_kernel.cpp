@@ -8,147 +8,153 @@
 #define GHOSTLIGHT_JOIN(a, b) GHOSTLIGHT_JOIN_(a, b)
 
 namespace ghostlight::GHOSTLIGHT_JOIN(kernels_, GHOSTLIGHT_ISA) {
-namespace {
+    namespace {
 
-template <class T>
-using Lanes = stdx::native_simd<T>;
+    template <class T>
+    using Lanes = stdx::native_simd<T>;
 
-template <class V, class T>
-V load(const T* from) {
-    return V(from, stdx::element_aligned);
-}
-template <class V, class T>
-void store(const V& value, T* to) {
-    value.copy_to(to, stdx::element_aligned);
-}
-
-enum { no_weights, average_weights, polarised_weights };
-
-/// One vector of rays on its way.
-template <class V>
-struct Packet {
-    RayAt<V> ray;
-    V margin, r2_rel, average;
-    JonesState<V> jones;
-};
-
-template <int mode, class T>
-GHOSTLIGHT_INLINE Packet<Lanes<T>> begin(const BundleView<T>& b, std::size_t i) {
-    using V = Lanes<T>;
-    const V u = load<V>(b.u + i), v = load<V>(b.v + i);
-    Packet<V> p{{Vec3<V>(V(u * b.e1[0] + v * b.e2[0]), V(u * b.e1[1] + v * b.e2[1]),
-                         V(u * b.e1[2] + v * b.e2[2])),
-                 Vec3<V>(V(b.direction[0]), V(b.direction[1]), V(b.direction[2]))},
-                V(T(1)), V(T(0)), V(T(1)), {}};
-    if constexpr (mode == polarised_weights)
-        p.jones = jones_start<V>(Vec3<T>(b.e1[0], b.e1[1], b.e1[2]));
-    return p;
-}
-
-/// The least margin so far, or where the ray first failed: what comes after means nothing.
-template <class V>
-GHOSTLIGHT_INLINE void narrow(V& margin, const V& next) {
-    margin = select(margin < V(Lane<V>(0)), margin, smaller(margin, next));
-}
-
-template <int mode, class T>
-GHOSTLIGHT_INLINE void pass(const BundleView<T>& b, std::size_t i, const TraceStep<T>& step,
-                            int crossing, int reflection, Packet<Lanes<T>>& p) {
-    using V = Lanes<T>;
-    const Meeting<V> meeting = meet(step, b.aspheric, p.margin, p.ray);
-    narrow(p.margin, smaller(meeting.turned_margin,
-                             smaller(meeting.miss_margin, meeting.hemisphere_margin)));
-    const Vec3<V>& at = p.ray.position;
-    if (step.at_stop) {
-        store(at.x, b.stop_u[crossing] + i);
-        store(at.y, b.stop_v[crossing] + i);
-    } else {
-        const V r2 = at.x * at.x + at.y * at.y;
-        p.r2_rel = larger(p.r2_rel, V(r2 * (step.inverse_clear * step.inverse_clear)));
+    template <class V, class T>
+    V load(const T* from) {
+        return V(from, stdx::element_aligned);
     }
-    const Vec3<V> before = p.ray.direction;
-    const V cos2_squared = turn(step, meeting, p.ray);
-    if (!step.reflects)
-        narrow(p.margin, cos2_squared);
-    else if (reflection < 2)
-        store(cos2_squared, b.onset[reflection] + i);
-    if constexpr (mode != no_weights) {
-        if (step.invisible) return;
-        const Amplitudes<V> film = amplitudes(step, b.layers, meeting.cos_incidence);
-        const V mean = T(0.5) * (step.reflects ? norm(film.r_s) + norm(film.r_p)
-                                               : norm(film.t_s) + norm(film.t_p));
-        if (step.reflects && reflection < 2) store(mean, b.reflectance[reflection] + i);
-        p.average = p.average * mean;
+    template <class V, class T>
+    void store(const V& value, T* to) {
+        value.copy_to(to, stdx::element_aligned);
+    }
+
+    enum { no_weights, average_weights, polarised_weights };
+
+    /// One vector of rays on its way.
+    template <class V>
+    struct Packet {
+        RayAt<V> ray;
+        V margin, r2_rel, average;
+        JonesState<V> jones;
+    };
+
+    template <int mode, class T>
+    GHOSTLIGHT_INLINE Packet<Lanes<T>> begin(const BundleView<T>& b, std::size_t i) {
+        using V = Lanes<T>;
+        const V u = load<V>(b.u + i), v = load<V>(b.v + i);
+        Packet<V> p{{Vec3<V>(V(u * b.e1[0] + v * b.e2[0]), V(u * b.e1[1] + v * b.e2[1]),
+                             V(u * b.e1[2] + v * b.e2[2])),
+                     Vec3<V>(V(b.direction[0]), V(b.direction[1]), V(b.direction[2]))},
+                    V(T(1)),
+                    V(T(0)),
+                    V(T(1)),
+                    {}};
         if constexpr (mode == polarised_weights)
-            apply(film, step.reflects, meeting, before, p.jones);
+            p.jones = jones_start<V>(Vec3<T>(b.e1[0], b.e1[1], b.e1[2]));
+        return p;
     }
-}
 
-template <int mode, class T>
-GHOSTLIGHT_INLINE void finish(const BundleView<T>& b, std::size_t i, Packet<Lanes<T>>& p) {
-    using V = Lanes<T>;
-    using std::sqrt;
-    const V zero{T(0)};
-    V margin = p.margin;
-    narrow(margin, p.ray.direction.z);
-    const V t = -(p.ray.position.z + b.sensor_gap_mm) / p.ray.direction.z;
-    V x = p.ray.position.x + t * p.ray.direction.x;
-    V y = p.ray.position.y + t * p.ray.direction.y;
-    V weight = p.average;
-    if constexpr (mode == polarised_weights)
-        weight = T(0.5) * (p.jones.intensity(0) + p.jones.intensity(1));
-    if constexpr (mode == no_weights) weight = zero;
-    // What went wild far outside the bundle must not reach any sum.
-    const V check = x + y + weight + p.average + p.r2_rel;
-    const auto lost = !(check - check == zero);
-    store(select(lost, zero, x), b.x + i);
-    store(select(lost, zero, y), b.y + i);
-    store(select(lost, zero, weight), b.weight + i);
-    store(select(lost, zero, p.average), b.weight_average + i);
-    store(select(lost, smaller(margin, V(T(-1e-3))), margin), b.margin + i);
-    store(V(sqrt(select(lost, V(T(4)), p.r2_rel))), b.r_rel + i);
-}
-
-/// Several packets side by side: each is one long chain of dependent operations, and the others
-/// fill its gaps.
-template <int mode, int packets, class T>
-void trace_at(const BundleView<T>& b, std::size_t i) {
-    constexpr std::size_t lanes = Lanes<T>::size();
-    Packet<Lanes<T>> p[packets];
-    for (std::size_t k = 0; k < packets; ++k) p[k] = begin<mode>(b, i + k * lanes);
-    int crossing = 0, reflection = 0;
-    for (std::size_t s = 0; s < b.step_count; ++s) {
-        const TraceStep<T>& step = b.steps[s];
-        for (std::size_t k = 0; k < packets; ++k)
-            pass<mode>(b, i + k * lanes, step, crossing, reflection, p[k]);
-        crossing += step.at_stop ? 1 : 0;
-        reflection += step.reflects ? 1 : 0;
+    /// The least margin so far, or where the ray first failed: what comes after means nothing.
+    template <class V>
+    GHOSTLIGHT_INLINE void narrow(V& margin, const V& next) {
+        margin = select(margin < V(Lane<V>(0)), margin, smaller(margin, next));
     }
-    for (std::size_t k = 0; k < packets; ++k) finish<mode>(b, i + k * lanes, p[k]);
-}
 
-template <int mode, class T>
-void trace_all(const BundleView<T>& b) {
-    constexpr std::size_t lanes = Lanes<T>::size();
-    constexpr int side_by_side = mode == no_weights ? 4 : 2;
-    std::size_t i = 0;
-    for (; i + side_by_side * lanes <= b.count; i += side_by_side * lanes)
-        trace_at<mode, side_by_side>(b, i);
-    for (; i < b.count; i += lanes) trace_at<mode, 1>(b, i);
-}
-
-template <class T>
-void trace_mode(const BundleView<T>& b) {
-    switch (b.weights) {
-        case no_weights: return trace_all<no_weights>(b);
-        case average_weights: return trace_all<average_weights>(b);
-        default: return trace_all<polarised_weights>(b);
+    template <int mode, class T>
+    GHOSTLIGHT_INLINE void pass(const BundleView<T>& b, std::size_t i, const TraceStep<T>& step,
+                                int crossing, int reflection, Packet<Lanes<T>>& p) {
+        using V = Lanes<T>;
+        const Meeting<V> meeting = meet(step, b.aspheric, p.margin, p.ray);
+        narrow(p.margin, smaller(meeting.turned_margin,
+                                 smaller(meeting.miss_margin, meeting.hemisphere_margin)));
+        const Vec3<V>& at = p.ray.position;
+        if (step.at_stop) {
+            store(at.x, b.stop_u[crossing] + i);
+            store(at.y, b.stop_v[crossing] + i);
+        } else {
+            const V r2 = at.x * at.x + at.y * at.y;
+            p.r2_rel = larger(p.r2_rel, V(r2 * (step.inverse_clear * step.inverse_clear)));
+        }
+        const Vec3<V> before = p.ray.direction;
+        const V cos2_squared = turn(step, meeting, p.ray);
+        if (!step.reflects)
+            narrow(p.margin, cos2_squared);
+        else if (reflection < 2)
+            store(cos2_squared, b.onset[reflection] + i);
+        if constexpr (mode != no_weights) {
+            if (step.invisible) return;
+            const Amplitudes<V> film = amplitudes(step, b.layers, meeting.cos_incidence);
+            const V mean = T(0.5) * (step.reflects ? norm(film.r_s) + norm(film.r_p)
+                                                   : norm(film.t_s) + norm(film.t_p));
+            if (step.reflects && reflection < 2) store(mean, b.reflectance[reflection] + i);
+            p.average = p.average * mean;
+            if constexpr (mode == polarised_weights)
+                apply(film, step.reflects, meeting, before, p.jones);
+        }
     }
-}
 
-}  // namespace
+    template <int mode, class T>
+    GHOSTLIGHT_INLINE void finish(const BundleView<T>& b, std::size_t i, Packet<Lanes<T>>& p) {
+        using V = Lanes<T>;
+        using std::sqrt;
+        const V zero{T(0)};
+        V margin = p.margin;
+        narrow(margin, p.ray.direction.z);
+        const V t = -(p.ray.position.z + b.sensor_gap_mm) / p.ray.direction.z;
+        V x = p.ray.position.x + t * p.ray.direction.x;
+        V y = p.ray.position.y + t * p.ray.direction.y;
+        V weight = p.average;
+        if constexpr (mode == polarised_weights)
+            weight = T(0.5) * (p.jones.intensity(0) + p.jones.intensity(1));
+        if constexpr (mode == no_weights) weight = zero;
+        // What went wild far outside the bundle must not reach any sum.
+        const V check = x + y + weight + p.average + p.r2_rel;
+        const auto lost = !(check - check == zero);
+        store(select(lost, zero, x), b.x + i);
+        store(select(lost, zero, y), b.y + i);
+        store(select(lost, zero, weight), b.weight + i);
+        store(select(lost, zero, p.average), b.weight_average + i);
+        store(select(lost, smaller(margin, V(T(-1e-3))), margin), b.margin + i);
+        store(V(sqrt(select(lost, V(T(4)), p.r2_rel))), b.r_rel + i);
+    }
 
-void trace_bundle_lanes(const BundleView<float>& bundle) { trace_mode(bundle); }
-void trace_bundle_lanes(const BundleView<double>& bundle) { trace_mode(bundle); }
+    /// Several packets side by side: each is one long chain of dependent operations, and the others
+    /// fill its gaps.
+    template <int mode, int packets, class T>
+    void trace_at(const BundleView<T>& b, std::size_t i) {
+        constexpr std::size_t lanes = Lanes<T>::size();
+        Packet<Lanes<T>> p[packets];
+        for (std::size_t k = 0; k < packets; ++k) p[k] = begin<mode>(b, i + k * lanes);
+        int crossing = 0, reflection = 0;
+        for (std::size_t s = 0; s < b.step_count; ++s) {
+            const TraceStep<T>& step = b.steps[s];
+            for (std::size_t k = 0; k < packets; ++k)
+                pass<mode>(b, i + k * lanes, step, crossing, reflection, p[k]);
+            crossing += step.at_stop ? 1 : 0;
+            reflection += step.reflects ? 1 : 0;
+        }
+        for (std::size_t k = 0; k < packets; ++k) finish<mode>(b, i + k * lanes, p[k]);
+    }
 
-}  // namespace ghostlight::GHOSTLIGHT_JOIN(kernels_, GHOSTLIGHT_ISA)
+    template <int mode, class T>
+    void trace_all(const BundleView<T>& b) {
+        constexpr std::size_t lanes = Lanes<T>::size();
+        constexpr int side_by_side = mode == no_weights ? 4 : 2;
+        std::size_t i = 0;
+        for (; i + side_by_side * lanes <= b.count; i += side_by_side * lanes)
+            trace_at<mode, side_by_side>(b, i);
+        for (; i < b.count; i += lanes) trace_at<mode, 1>(b, i);
+    }
+
+    template <class T>
+    void trace_mode(const BundleView<T>& b) {
+        switch (b.weights) {
+            case no_weights:
+                return trace_all<no_weights>(b);
+            case average_weights:
+                return trace_all<average_weights>(b);
+            default:
+                return trace_all<polarised_weights>(b);
+        }
+    }
+
+    }  // namespace
+
+    void trace_bundle_lanes(const BundleView<float>& bundle) { trace_mode(bundle); }
+    void trace_bundle_lanes(const BundleView<double>& bundle) { trace_mode(bundle); }
+
+}  // namespace ghostlight::GHOSTLIGHT_JOIN(kernels_,GHOSTLIGHT_ISA)

@@ -28,8 +28,8 @@ struct BundleView {
 inline constexpr std::size_t bundle_padding = 16;
 
 #ifdef GHOSTLIGHT_HAVE_X86_ISA
-#define GHOSTLIGHT_BUNDLE_KERNELS(set)                 \
-    namespace set {                                    \
+#define GHOSTLIGHT_BUNDLE_KERNELS(set)                  \
+    namespace set {                                     \
     void trace_bundle_lanes(const BundleView<float>&);  \
     void trace_bundle_lanes(const BundleView<double>&); \
     }

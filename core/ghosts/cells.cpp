@@ -21,9 +21,8 @@ RayField<T> trace_field(const OpticalSystem& system, const TracePath<T>& path,
         for (int edge = 0; edge < stop_edges(system.stop_mask); ++edge) {
             std::vector<T>& open = field.clearances.emplace_back(count);
             for (std::size_t i = 0; i < count; ++i)
-                open[i] = static_cast<T>(stop_margin(system.stop_mask, edge,
-                                                     static_cast<double>(u[i]),
-                                                     static_cast<double>(v[i])));
+                open[i] = static_cast<T>(stop_margin(
+                    system.stop_mask, edge, static_cast<double>(u[i]), static_cast<double>(v[i])));
         }
     }
     return field;
@@ -33,8 +32,7 @@ namespace {
 
 template <class T>
 BundleGrid<T> trace_cells(const OpticalSystem& system, const TracePath<T>& path,
-                          const BeamFrame& frame, const PupilBox& box, int cells,
-                          Weights weights) {
+                          const BeamFrame& frame, const PupilBox& box, int cells, Weights weights) {
     Bundle<T> rays;
     lay_grid(box, cells, rays);
     return {trace_field(system, path, frame, std::move(rays), weights), cells};
@@ -84,13 +82,17 @@ SplitGrid<T> trace_grid(const OpticalSystem& system, const TracePath<T>& path,
     grid.split_of_cell.assign(static_cast<std::size_t>(cells * cells), -1);
     for (int cell = 0; cell < cells * cells; ++cell) {
         if (!is_singular(grid.base, reflections, cell)) continue;
-        auto u = [&](int i) { return std::lerp(box.u0_mm, box.u1_mm, static_cast<double>(i) / cells); };
-        auto v = [&](int j) { return std::lerp(box.v0_mm, box.v1_mm, static_cast<double>(j) / cells); };
+        auto u = [&](int i) {
+            return std::lerp(box.u0_mm, box.u1_mm, static_cast<double>(i) / cells);
+        };
+        auto v = [&](int j) {
+            return std::lerp(box.v0_mm, box.v1_mm, static_cast<double>(j) / cells);
+        };
         const int i = cell % cells, j = cell / cells;
         const Weights own = weights == Weights::none ? Weights::polarised : weights;
         grid.split_of_cell[static_cast<std::size_t>(cell)] = static_cast<int>(grid.splits.size());
-        grid.splits.push_back(trace_cells(system, path, frame,
-                                          {u(i), u(i + 1), v(j), v(j + 1)}, split_cells, own));
+        grid.splits.push_back(
+            trace_cells(system, path, frame, {u(i), u(i + 1), v(j), v(j + 1)}, split_cells, own));
     }
     return grid;
 }
@@ -107,9 +109,10 @@ Piece clip_triangle(const RayField<T>& field, const TriangleNodes& nodes, int tr
     Piece piece;
     piece.triangle = triangle;
     for (const std::vector<T>& clearance : field.clearances) {
-        const double f[3] = {static_cast<double>(clearance[static_cast<std::size_t>(nodes.node[0])]),
-                             static_cast<double>(clearance[static_cast<std::size_t>(nodes.node[1])]),
-                             static_cast<double>(clearance[static_cast<std::size_t>(nodes.node[2])])};
+        const double f[3] = {
+            static_cast<double>(clearance[static_cast<std::size_t>(nodes.node[0])]),
+            static_cast<double>(clearance[static_cast<std::size_t>(nodes.node[1])]),
+            static_cast<double>(clearance[static_cast<std::size_t>(nodes.node[2])])};
         if (f[0] >= 0.0 && f[1] >= 0.0 && f[2] >= 0.0) continue;
         piece.whole = false;
         if (f[0] < 0.0 && f[1] < 0.0 && f[2] < 0.0) return piece;
@@ -127,7 +130,8 @@ Piece clip_triangle(const RayField<T>& field, const TriangleNodes& nodes, int tr
             if ((va >= 0.0) != (vb >= 0.0)) {
                 const double t = va / (va - vb);
                 Corner& cut = kept[kept_count++];
-                for (int s = 0; s < 3; ++s) cut.share[s] = a.share[s] + t * (b.share[s] - a.share[s]);
+                for (int s = 0; s < 3; ++s)
+                    cut.share[s] = a.share[s] + t * (b.share[s] - a.share[s]);
             }
         }
         count = kept_count;
@@ -154,11 +158,14 @@ Piece clip_triangle(const RayField<T>& field, const TriangleNodes& nodes, int tr
         }
     for (int k = 0; k < count; ++k) {
         const double* share = corners[k].share;
-        auto mixed = [&](const double* p) { return share[0] * p[0] + share[1] * p[1] + share[2] * p[2]; };
+        auto mixed = [&](const double* p) {
+            return share[0] * p[0] + share[1] * p[1] + share[2] * p[2];
+        };
         auto at = [&](const std::vector<T>& values) {
             double sum = 0.0;
             for (int s = 0; s < 3; ++s)
-                sum += share[s] * static_cast<double>(values[static_cast<std::size_t>(nodes.node[s])]);
+                sum +=
+                    share[s] * static_cast<double>(values[static_cast<std::size_t>(nodes.node[s])]);
             return sum;
         };
         piece.corners[k] = {at(rays.u_mm), at(rays.v_mm), mixed(x), mixed(y), at(rays.weight)};

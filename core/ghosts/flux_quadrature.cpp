@@ -9,7 +9,7 @@ namespace ghostlight {
 namespace {
 
 constexpr std::size_t most_rays = 400'000;  ///< per path and wavelength
-constexpr int deepest_level = 10;           ///< splits below the pupil search's cells: 24 · 2²⁶ fit
+constexpr int deepest_level = 10;  ///< splits below the pupil search's cells: 24 · 2²⁶ fit
 
 /// First and second moments of weight dA over a piece: the edge midpoints' rule on a fan of
 /// triangles, exact for quadratics.
@@ -17,9 +17,8 @@ void add_moments(const Piece& piece, FluxSums& sums) {
     const PieceCorner& o = piece.corners[0];
     for (int k = 1; k + 1 < piece.count; ++k) {
         const PieceCorner* corner[3] = {&o, &piece.corners[k], &piece.corners[k + 1]};
-        const double area =
-            0.5 * std::abs((corner[1]->u_mm - o.u_mm) * (corner[2]->v_mm - o.v_mm) -
-                           (corner[2]->u_mm - o.u_mm) * (corner[1]->v_mm - o.v_mm));
+        const double area = 0.5 * std::abs((corner[1]->u_mm - o.u_mm) * (corner[2]->v_mm - o.v_mm) -
+                                           (corner[2]->u_mm - o.u_mm) * (corner[1]->v_mm - o.v_mm));
         for (int side = 0; side < 3; ++side) {
             const PieceCorner &a = *corner[side], &b = *corner[(side + 1) % 3];
             const double flux = area / 3.0 * 0.5 * (a.weight + b.weight);
@@ -65,7 +64,8 @@ void visit_pieces(const PathFlux& flux, const FluxCell& cell, Visit visit) {
 
 double flux_of(const PathFlux& flux, const FluxCell& cell) {
     double sum = 0.0;
-    visit_pieces(flux, cell, [&](const Piece& piece, const TriangleNodes&) { sum += flux_mm2(piece); });
+    visit_pieces(flux, cell,
+                 [&](const Piece& piece, const TriangleNodes&) { sum += flux_mm2(piece); });
     return sum;
 }
 
@@ -73,7 +73,8 @@ double flux_of(const PathFlux& flux, const FluxCell& cell) {
 std::uint64_t lattice_key(const FluxCell& cell, int corner) {
     const int shift = deepest_level - cell.level;
     const std::uint64_t i = std::uint64_t{cell.i + static_cast<std::uint32_t>(corner & 1)} << shift;
-    const std::uint64_t j = std::uint64_t{cell.j + static_cast<std::uint32_t>(corner >> 1)} << shift;
+    const std::uint64_t j = std::uint64_t{cell.j + static_cast<std::uint32_t>(corner >> 1)}
+                            << shift;
     return (j << 32) | i;
 }
 
@@ -139,10 +140,7 @@ FluxSums operator*(double scale, FluxSums sums) {
 
 PathQuadrature::PathQuadrature(const OpticalSystem& system, const GhostPath& path,
                                const BeamFrame& frame)
-    : system_(system),
-      ghost_(path),
-      path_(trace_path<double>(system, path)),
-      frame_(frame) {}
+    : system_(system), ghost_(path), path_(trace_path<double>(system, path)), frame_(frame) {}
 
 void PathQuadrature::trace_lattice(PathFlux& flux, const std::vector<std::uint64_t>& keys) const {
     const PupilBox& box = flux.pupil.entrance;
@@ -172,8 +170,8 @@ void PathQuadrature::split(PathFlux& flux, double above_mm2) const {
         }
         parent_flux.push_back(cell.flux_mm2);
         for (std::uint32_t k = 0; k < 4; ++k)
-            children.push_back({.i = 2 * cell.i + (k & 1), .j = 2 * cell.j + (k >> 1),
-                                .level = cell.level + 1});
+            children.push_back(
+                {.i = 2 * cell.i + (k & 1), .j = 2 * cell.j + (k >> 1), .level = cell.level + 1});
     }
     std::vector<std::uint64_t> keys;
     for (const FluxCell& child : children)
@@ -239,9 +237,8 @@ GhostMesh PathQuadrature::mesh(PathFlux& flux, const PixelFrame& pixels, int cel
     const auto grid = weighted_grid(system_, path, frame_, flux.pupil.box, probe, cells);
     flux.rays += grid.rays() + probe.rays.size();
     double on_grid = 0.0;
-    for_each_piece(grid, [&](const BundleGrid<float>&, const Piece& piece) {
-        on_grid += flux_mm2(piece);
-    });
+    for_each_piece(
+        grid, [&](const BundleGrid<float>&, const Piece& piece) { on_grid += flux_mm2(piece); });
     if (!(on_grid > 0.0)) return {};
     return ghost_mesh(grid, pixels, gain * flux.sums.flux / on_grid);
 }

@@ -10,11 +10,12 @@ namespace ghostlight {
 namespace {
 
 [[noreturn]] void refuse(std::string_view text, const std::string& problem) {
-    throw Error({.problem = problem,
-                 .file = {},
-                 .where = {},
-                 .found = fmt::format("ghost '{}'", text),
-                 .expected = "direct, or two surfaces that reflect, like 5-3 (the later one first)"});
+    throw Error(
+        {.problem = problem,
+         .file = {},
+         .where = {},
+         .found = fmt::format("ghost '{}'", text),
+         .expected = "direct, or two surfaces that reflect, like 5-3 (the later one first)"});
 }
 
 std::size_t surface_number(std::string_view word, std::string_view text) {

@@ -17,7 +17,7 @@ namespace {
 constexpr int peak_width_px = 1280;
 constexpr int coarsest_peak_grid = 32, finest_peak_grid = 512;
 constexpr double peak_tolerance = 0.05;  ///< change on doubling the grid at which a peak is settled
-constexpr int fewest_nodes = 5;  ///< of the spectrum; refined until two sets agree
+constexpr int fewest_nodes = 5;          ///< of the spectrum; refined until two sets agree
 constexpr int most_nodes = 33;
 constexpr double faint_share = 1e-6;  ///< of the strongest ghost: nothing is refined below it
 
@@ -82,7 +82,8 @@ class TableBuilder {
         const auto began = std::chrono::steady_clock::now();
         std::atomic<std::size_t> done{0};
         auto report = [&] {
-            const double share = static_cast<double>(++done) / (2.0 * static_cast<double>(paths_.size()));
+            const double share =
+                static_cast<double>(++done) / (2.0 * static_cast<double>(paths_.size()));
             if (progress) progress(share);
         };
         std::vector<PathOverSpectrum> paths(paths_.size());
@@ -106,7 +107,9 @@ class TableBuilder {
         GhostTable table;
         for (const GhostRow& r : rows) table.rays += r.rays;
         const double image = rows.front().flux_mm2;
-        for (GhostRow& r : rows) r.relative_flux = image > 0.0 ? r.flux_mm2 / image : std::numeric_limits<double>::quiet_NaN();
+        for (GhostRow& r : rows)
+            r.relative_flux =
+                image > 0.0 ? r.flux_mm2 / image : std::numeric_limits<double>::quiet_NaN();
         table.direct = rows.front();
         table.ghosts.assign(rows.begin() + 1, rows.end());
         std::ranges::stable_sort(table.ghosts, [](const GhostRow& a, const GhostRow& b) {

@@ -23,7 +23,7 @@ constexpr Effort thorough{24, 3, 100, 3000};
 constexpr Effort quick{12, 1, 40, 600};
 
 constexpr double blind_clearance = 5.0;  ///< r_rel beside a failing corner that may still fall to 1
-constexpr double first_level_dip = 0.15;   ///< of r_rel inside a cell; falls fourfold a level
+constexpr double first_level_dip = 0.15;      ///< of r_rel inside a cell; falls fourfold a level
 constexpr double beside_failing_share = 3.0;  ///< how far stop coordinates may reach there
 constexpr int lone_corner_levels = 6;
 constexpr int finest_level = 16;
@@ -63,7 +63,7 @@ struct Nodes {
 
 template <class T>
 Nodes<T> trace_nodes(const TracePath<T>& path, const BeamFrame& frame, const PupilBox& box,
-                  int cells_across, const std::vector<PupilCell>& cells) {
+                     int cells_across, const std::vector<PupilCell>& cells) {
     Nodes<T> nodes;
     const auto across = static_cast<std::uint32_t>(cells_across);
     if (cells.size() == std::size_t{across} * across) {
@@ -141,8 +141,8 @@ std::size_t passing_nodes(const Bundle<T>& rays, double stop_radius_mm) {
     for (std::size_t n = 0; n < rays.size(); ++n) {
         bool passes = rays.margin[n] >= T(0) && rays.r_rel[n] <= T(1);
         for (std::size_t k = 0; k < static_cast<std::size_t>(rays.stop_crossings); ++k)
-            passes = passes &&
-                     std::hypot(rays.stop_u_mm[k][n], rays.stop_v_mm[k][n]) <= stop_radius_mm;
+            passes =
+                passes && std::hypot(rays.stop_u_mm[k][n], rays.stop_v_mm[k][n]) <= stop_radius_mm;
         count += passes ? 1 : 0;
     }
     return count;
@@ -157,8 +157,8 @@ PupilBox entrance_box(const OpticalSystem& system, const BeamFrame& frame) {
     constexpr int rings = 24, spokes = 48;
     for (int ring = 0; ring <= rings; ++ring) {
         const double r = first.semi_diameter_mm * ring / rings;
-        double sag = c * r * r /
-                     (1.0 + std::sqrt(std::max(0.0, 1.0 - (1.0 + first.conic) * c * c * r * r)));
+        double sag =
+            c * r * r / (1.0 + std::sqrt(std::max(0.0, 1.0 - (1.0 + first.conic) * c * c * r * r)));
         double power = r * r;
         for (const double a : first.aspheric) sag += a * (power *= r * r);
         for (int spoke = 0; spoke < spokes; ++spoke) {

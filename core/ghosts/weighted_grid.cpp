@@ -16,7 +16,8 @@ template <class Visit>
 void for_each_triple(const RayField<float>& probe, Visit visit) {
     constexpr int side = probe_cells + 1;
     auto passes = [&](std::size_t node) {
-        return std::ranges::all_of(probe.clearances, [&](const auto& c) { return c[node] >= 0.0F; });
+        return std::ranges::all_of(probe.clearances,
+                                   [&](const auto& c) { return c[node] >= 0.0F; });
     };
     for (int j = 0; j < side; j += 2)
         for (int i = 1; i < side; i += 2)
@@ -59,7 +60,8 @@ void fill_weights(const RayField<float>& probe, BundleGrid<float>& grid) {
                     sum += probe.rays.weight[node];
                     ++count;
                 }
-            if (count > 0) known[static_cast<std::size_t>(j * side + i)] = sum / static_cast<float>(count);
+            if (count > 0)
+                known[static_cast<std::size_t>(j * side + i)] = sum / static_cast<float>(count);
         }
     auto at = [&](int i, int j) { return known[static_cast<std::size_t>(j * side + i)]; };
     for (int j = 0; j <= grid.cells; ++j)

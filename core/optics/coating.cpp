@@ -51,8 +51,8 @@ struct LayersAt {
     std::vector<FilmLayer> operator()(const LayerStack& stack) const {
         std::vector<FilmLayer> layers;
         for (const Layer& layer : stack.layers)
-            layers.push_back(layer_at(refractive_index(layer.medium, nm), layer.extinction,
-                                      layer.thickness_nm));
+            layers.push_back(
+                layer_at(refractive_index(layer.medium, nm), layer.extinction, layer.thickness_nm));
         return layers;
     }
 };
@@ -68,7 +68,9 @@ Film simplified(Film film) {
         else
             merged.push_back(layer);
     }
-    auto is_medium = [](const FilmLayer& layer, double n) { return layer.n == n && layer.k == 0.0; };
+    auto is_medium = [](const FilmLayer& layer, double n) {
+        return layer.n == n && layer.k == 0.0;
+    };
     if (!merged.empty() && is_medium(merged.front(), film.n_in)) merged.erase(merged.begin());
     if (!merged.empty() && is_medium(merged.back(), film.n_out)) merged.pop_back();
     film.layers = std::move(merged);
@@ -149,11 +151,12 @@ Film parse_stack(std::string_view text, double wavelength_nm) {
         begin = bar + 1;
     }
     if (parts.size() < 2)
-        throw Error({.problem = fmt::format("stack \"{}\" has no exit medium", text),
-                     .file = {},
-                     .where = {},
-                     .found = fmt::format("{} part", parts.size()),
-                     .expected = "two media and the layers between, like \"1.0 | 1.38:96.4 | 1.5\""});
+        throw Error(
+            {.problem = fmt::format("stack \"{}\" has no exit medium", text),
+             .file = {},
+             .where = {},
+             .found = fmt::format("{} part", parts.size()),
+             .expected = "two media and the layers between, like \"1.0 | 1.38:96.4 | 1.5\""});
     Film film;
     film.wavelength_nm = wavelength_nm;
     film.n_in = number(parts.front(), text, "the incident medium's index, like 1.0");
@@ -163,7 +166,8 @@ Film parse_stack(std::string_view text, double wavelength_nm) {
     for (std::size_t i = 1; i + 1 < parts.size(); ++i) {
         const std::string_view part = parts[i];
         const std::size_t colon = part.find(':');
-        if (colon == part.npos) number("", part, "a layer as index:thickness in nm, like 1.38:96.4");
+        if (colon == part.npos)
+            number("", part, "a layer as index:thickness in nm, like 1.38:96.4");
         const std::string_view index = part.substr(0, colon);
         const std::size_t comma = index.find(',');
         const double n = number(index.substr(0, comma), text, "a layer's index, like 1.38");
@@ -180,8 +184,8 @@ std::string describe(const Coating& coating) {
     if (std::holds_alternative<Uncoated>(coating)) return "none";
     if (const auto* film = std::get_if<QuarterWave>(&coating)) {
         const auto* medium = std::get_if<Medium>(&film->layer);
-        std::string text = fmt::format("{} λ/4 {}", medium ? describe_medium(*medium) : "ideal",
-                                       film->center_nm);
+        std::string text =
+            fmt::format("{} λ/4 {}", medium ? describe_medium(*medium) : "ideal", film->center_nm);
         if (film->thickness_factor != 1.0) text += fmt::format(" × {}", film->thickness_factor);
         return text;
     }

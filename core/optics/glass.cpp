@@ -52,8 +52,8 @@ double index_squared_or_index(const FormulaGlass& glass, double um, bool& is_squ
                 value += c[i] / (c[i + 1] - inverse_square(um));
             return value;
         default:
-            throw Error(fmt::format("dispersion formula {} is not known; expected 1 to 6",
-                                    glass.formula));
+            throw Error(
+                fmt::format("dispersion formula {} is not known; expected 1 to 6", glass.formula));
     }
 }
 
@@ -86,8 +86,7 @@ struct IndexAt {
                                                  glass.max_nm)});
         bool is_squared = true;
         const double value = index_squared_or_index(glass, um_from_nm(nm), is_squared);
-        if (!std::isfinite(value) || value <= 1.0)
-            refuse(value, "the formula has a pole there");
+        if (!std::isfinite(value) || value <= 1.0) refuse(value, "the formula has a pole there");
         const double n = is_squared ? std::sqrt(value) : value;
         if (n > largest_index) refuse(n, "no glass has such an index");
         return n;
@@ -96,19 +95,18 @@ struct IndexAt {
     std::string label() const { return name.empty() ? "without a name" : "'" + name + "'"; }
 
     [[noreturn]] void refuse(double value, const char* why) const {
-        throw Error({.problem = fmt::format("glass {} has no usable index at {} nm ({})", label(),
-                                            nm, why),
-                     .file = {},
-                     .where = {},
-                     .found = fmt::format("{}", value),
-                     .expected = "an index from 1 to 10"});
+        throw Error(
+            {.problem = fmt::format("glass {} has no usable index at {} nm ({})", label(), nm, why),
+             .file = {},
+             .where = {},
+             .found = fmt::format("{}", value),
+             .expected = "an index from 1 to 10"});
     }
 };
 
 bool same_letters(std::string_view a, std::string_view b) {
-    return std::ranges::equal(a, b, [](unsigned char x, unsigned char y) {
-        return std::toupper(x) == std::toupper(y);
-    });
+    return std::ranges::equal(
+        a, b, [](unsigned char x, unsigned char y) { return std::toupper(x) == std::toupper(y); });
 }
 
 }  // namespace
@@ -124,8 +122,7 @@ double refractive_index(const Medium& medium, double wavelength_nm) {
 }
 
 double abbe_number(const Medium& medium) {
-    const double spread =
-        refractive_index(medium, f_line_nm) - refractive_index(medium, c_line_nm);
+    const double spread = refractive_index(medium, f_line_nm) - refractive_index(medium, c_line_nm);
     if (spread == 0.0) return std::numeric_limits<double>::infinity();
     return (refractive_index(medium, d_line_nm) - 1.0) / spread;
 }
@@ -136,12 +133,11 @@ bool is_air(const Medium& medium) {
 }
 
 Medium magnesium_fluoride() {
-    return {"MgF2",
-            FormulaGlass{.formula = 1,
-                         .coefficients = {0.0, 0.48755108, 0.04338408, 0.39875031, 0.09461442,
-                                          2.3120353, 23.793604},
-                         .min_nm = 200.0,
-                         .max_nm = 7000.0}};
+    return {"MgF2", FormulaGlass{.formula = 1,
+                                 .coefficients = {0.0, 0.48755108, 0.04338408, 0.39875031,
+                                                  0.09461442, 2.3120353, 23.793604},
+                                 .min_nm = 200.0,
+                                 .max_nm = 7000.0}};
 }
 
 const Medium* GlassCatalog::find(std::string_view name) const {

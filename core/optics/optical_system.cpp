@@ -26,8 +26,8 @@ OpticalSystem as_listed(const Prescription& lens, double wavelength_nm) {
         while (!at.aspheric.empty() && at.aspheric.back() == 0.0) at.aspheric.pop_back();
         at.vertex_z_mm = z;
         at.semi_diameter_mm = surface.semi_diameter_mm;
-        at.film = film_at(surface.coating, medium_before(lens, row), surface.medium_after,
-                          wavelength_nm);
+        at.film =
+            film_at(surface.coating, medium_before(lens, row), surface.medium_after, wavelength_nm);
         at.n_before = at.film.n_in;
         at.n_after = at.film.n_out;
         at.reflects = !is_invisible(at.film);
@@ -38,7 +38,8 @@ OpticalSystem as_listed(const Prescription& lens, double wavelength_nm) {
     system.sensor_width_mm = lens.sensor.width_mm;
     system.sensor_height_mm = lens.sensor.height_mm;
     const double listed = lens.surfaces[lens.stop.surface].semi_diameter_mm;
-    system.stop_mask.semi_diameter_mm = std::min(listed, lens.stop.semi_diameter_mm.value_or(listed));
+    system.stop_mask.semi_diameter_mm =
+        std::min(listed, lens.stop.semi_diameter_mm.value_or(listed));
     system.stop_mask.blades = lens.stop.blades;
     system.stop_mask.rotation_rad = rad_from_deg(lens.stop.rotation_deg);
     system.stop_mask.blade_curvature = lens.stop.blade_curvature;

@@ -52,8 +52,7 @@ FirstOrder first_order(const OpticalSystem& system) {
     order.bfd_mm = ratio(-whole.a, whole.c);
     order.ffd_mm = ratio(whole.d, whole.c);
     order.entrance_pupil_z_mm = ratio(to_stop.b, to_stop.a);
-    order.entrance_pupil_radius_mm =
-        ratio(system.stop_mask.semi_diameter_mm, std::abs(to_stop.a));
+    order.entrance_pupil_radius_mm = ratio(system.stop_mask.semi_diameter_mm, std::abs(to_stop.a));
     order.exit_pupil_z_mm = ratio(-from_stop.b, from_stop.d);
     const double determinant = from_stop.a * from_stop.d - from_stop.b * from_stop.c;
     order.exit_pupil_radius_mm =
@@ -100,8 +99,8 @@ ParaxialGhost paraxial_ghost(const OpticalSystem& system, const GhostPath& path)
         mm_from_nm(system.wavelength_nm) / system.surfaces[system.stop].n_before;
     const RayMatrix& rest = ghost.stop_to_sensor;
     const double magnified = rest.a * to_last_stop.a + rest.b * to_last_stop.c;
-    ghost.fresnel_number = ratio(a * a * std::abs(magnified),
-                                 wavelength_mm * std::abs(rest.b * to_last_stop.a));
+    ghost.fresnel_number =
+        ratio(a * a * std::abs(magnified), wavelength_mm * std::abs(rest.b * to_last_stop.a));
     return ghost;
 }
 

@@ -26,21 +26,22 @@ struct FirstOrder {
     double entrance_pupil_radius_mm = 0.0;
     double exit_pupil_z_mm = 0.0;  ///< from the last vertex
     double exit_pupil_radius_mm = 0.0;
-    double sensor_distance_mm = 0.0;    ///< last vertex to the sensor
-    double paraxial_defocus_mm = 0.0;   ///< sensor − focus
+    double sensor_distance_mm = 0.0;   ///< last vertex to the sensor
+    double paraxial_defocus_mm = 0.0;  ///< sensor − focus
 };
 FirstOrder first_order(const OpticalSystem& system);
 
 /// A ghost to first order (Lee and Eisemann 2013). M_a takes the first vertex's tangent plane to
 /// the first crossing of the stop, M_s the last crossing to the sensor.
 struct ParaxialGhost {
-    RayMatrix to_sensor;                ///< first vertex → sensor
-    RayMatrix to_stop;                  ///< M_a
-    RayMatrix stop_to_sensor;           ///< M_s
-    double focus_from_sensor_mm = 0.0;  ///< where a collimated beam meets; negative before the sensor
-    double magnification = 0.0;         ///< y_sensor over y at the first stop crossing, collimated
-    double diameter_mm = 0.0;           ///< on the sensor, all surfaces limiting
-    double fresnel_number = 0.0;        ///< a²|M|/(λ|B|) from the last stop crossing on (Collins)
+    RayMatrix to_sensor;       ///< first vertex → sensor
+    RayMatrix to_stop;         ///< M_a
+    RayMatrix stop_to_sensor;  ///< M_s
+    double focus_from_sensor_mm =
+        0.0;                      ///< where a collimated beam meets; negative before the sensor
+    double magnification = 0.0;   ///< y_sensor over y at the first stop crossing, collimated
+    double diameter_mm = 0.0;     ///< on the sensor, all surfaces limiting
+    double fresnel_number = 0.0;  ///< a²|M|/(λ|B|) from the last stop crossing on (Collins)
     double entrance_semi_diameter_mm = 0.0;  ///< of the collimated beam that passes everywhere
     int stop_crossings = 0;
 };

@@ -36,11 +36,11 @@ double curvature_per_mm(const BaseCurve& curve);
 /// One row of the prescription: a surface and what follows it.
 struct Surface {
     BaseCurve curve = Plane{};
-    double conic = 0.0;                ///< conic constant k; 0 = sphere, −1 = paraboloid
-    std::vector<double> aspheric;      ///< A4, A6, A8, …: sag terms in mm^(1−power)
-    double thickness_mm = 0.0;         ///< to the next vertex; the last one to the sensor
-    Medium medium_after;               ///< air by default
-    double semi_diameter_mm = 10.0;    ///< clear radius; of the stop's row, its listed radius
+    double conic = 0.0;              ///< conic constant k; 0 = sphere, −1 = paraboloid
+    std::vector<double> aspheric;    ///< A4, A6, A8, …: sag terms in mm^(1−power)
+    double thickness_mm = 0.0;       ///< to the next vertex; the last one to the sensor
+    Medium medium_after;             ///< air by default
+    double semi_diameter_mm = 10.0;  ///< clear radius; of the stop's row, its listed radius
     Coating coating = Uncoated{};
     std::string comment;
     UnknownFields unknown;

@@ -24,7 +24,9 @@ struct Complex {
     GHOSTLIGHT_INLINE friend Complex operator*(const Complex& a, const Complex& b) {
         return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
     }
-    GHOSTLIGHT_INLINE friend Complex operator*(const V& a, const Complex& b) { return {a * b.re, a * b.im}; }
+    GHOSTLIGHT_INLINE friend Complex operator*(const V& a, const Complex& b) {
+        return {a * b.re, a * b.im};
+    }
 };
 
 template <class V>
@@ -81,14 +83,14 @@ GHOSTLIGHT_INLINE Phase<V, V> phase_of(const V& x) {
         phase.decay = select(x < zero, a, zero);
     }
     if (any(small)) {
-        const V c = T(1) -
-                    x * (T(1.0 / 2) -
-                         x * (T(1.0 / 24) - x * (T(1.0 / 720) - x * (T(1.0 / 40320) -
-                                                                     x * T(1.0 / 3628800)))));
-        const V s = T(1) -
-                    x * (T(1.0 / 6) -
-                         x * (T(1.0 / 120) - x * (T(1.0 / 5040) - x * (T(1.0 / 362880) -
-                                                                       x * T(1.0 / 39916800)))));
+        const V c =
+            T(1) - x * (T(1.0 / 2) -
+                        x * (T(1.0 / 24) -
+                             x * (T(1.0 / 720) - x * (T(1.0 / 40320) - x * T(1.0 / 3628800)))));
+        const V s =
+            T(1) - x * (T(1.0 / 6) -
+                        x * (T(1.0 / 120) -
+                             x * (T(1.0 / 5040) - x * (T(1.0 / 362880) - x * T(1.0 / 39916800)))));
         phase.cos = select(small, c, phase.cos);
         phase.sinc = select(small, s, phase.sinc);
         phase.decay = select(small, zero, phase.decay);
@@ -104,7 +106,8 @@ GHOSTLIGHT_INLINE Phase<Complex<V>, V> phase_of(const Complex<V>& x) {
     using T = Lane<V>;
     const V zero{T(0)};
     const V one{T(1)};
-    // δ = a + ib, b ≥ 0: cos δ = cos a cosh b − i sin a sinh b, sin δ = sin a cosh b + i cos a sinh b.
+    // δ = a + ib, b ≥ 0: cos δ = cos a cosh b − i sin a sinh b, sin δ = sin a cosh b + i cos a sinh
+    // b.
     const auto small = norm(x) < T(1e-4);
     const Complex<V> safe{select(small, one, x.re), select(small, zero, x.im)};
     const Complex<V> delta = upper_sqrt(safe);
@@ -113,9 +116,8 @@ GHOSTLIGHT_INLINE Phase<Complex<V>, V> phase_of(const Complex<V>& x) {
     const V sh = T(0.5) * (T(1) - e);
     const V ca = cos(delta.re);
     const V sa = sin(delta.re);
-    Phase<Complex<V>, V> phase{{V(ca * ch), V(-sa * sh)},
-                               quotient(Complex<V>{V(sa * ch), V(ca * sh)}, delta),
-                               delta.im};
+    Phase<Complex<V>, V> phase{
+        {V(ca * ch), V(-sa * sh)}, quotient(Complex<V>{V(sa * ch), V(ca * sh)}, delta), delta.im};
     if (any(small)) {
         auto series = [&](T c1, T c2, T c3, T c4) {
             const Complex<V> unit{one, zero};
@@ -158,8 +160,7 @@ struct Polarised {
 /// One layer, from its exit side to its entrance side: (B, C) of s and of p.
 template <class Index, class V, class T>
 GHOSTLIGHT_INLINE void pass_layer(const Index& n2, const Index& inverse_n2, const Index& w2,
-                                  const T& k0_d, Polarised<V>& s, Polarised<V>& p,
-                V& decay) {
+                                  const T& k0_d, Polarised<V>& s, Polarised<V>& p, V& decay) {
     Index x;
     if constexpr (std::is_same_v<Index, V>)
         x = k0_d * k0_d * w2;
@@ -183,8 +184,8 @@ GHOSTLIGHT_INLINE void pass_layer(const Index& n2, const Index& inverse_n2, cons
 }
 
 template <class V>
-GHOSTLIGHT_INLINE void amplitudes_of(const Polarised<V>& f, const V& y0, const V& y_exit_re, const V& decay_factor,
-                   Complex<V>& r, Complex<V>& t) {
+GHOSTLIGHT_INLINE void amplitudes_of(const Polarised<V>& f, const V& y0, const V& y_exit_re,
+                                     const V& decay_factor, Complex<V>& r, Complex<V>& t) {
     const Complex<V> yb = y0 * f.b;
     const Complex<V> sum = yb + f.c, difference = yb - f.c;
     const V inverse = Lane<V>(1) / norm(sum);
@@ -200,8 +201,9 @@ GHOSTLIGHT_INLINE void amplitudes_of(const Polarised<V>& f, const V& y0, const V
 /// `layers` from the incident side. `Absorbing` picks complex indices; without it the imaginary
 /// parts are ignored. The exit and incident media are lossless.
 template <bool Absorbing, class V, class T>
-GHOSTLIGHT_INLINE Amplitudes<V> film_amplitudes(const T& n_in, const LayerAt<T>* layers, int layer_count,
-                              const T& n_out, const V& cos_incidence) {
+GHOSTLIGHT_INLINE Amplitudes<V> film_amplitudes(const T& n_in, const LayerAt<T>* layers,
+                                                int layer_count, const T& n_out,
+                                                const V& cos_incidence) {
     using std::exp;
     using L = Lane<V>;
     const V zero{L(0)};

@@ -42,14 +42,22 @@ BeamFrame beam_frame(const LightDirection& light) {
 }
 
 std::string to_string(const RayStatus& status) {
-    const auto at = [&](const char* fate) { return fmt::format("{}:{}", fate, status.surface + 1); };
+    const auto at = [&](const char* fate) {
+        return fmt::format("{}:{}", fate, status.surface + 1);
+    };
     switch (status.fate) {
-        case RayFate::ok: return "ok";
-        case RayFate::miss: return at("miss");
-        case RayFate::tir: return at("tir");
-        case RayFate::turned: return at("turned");
-        case RayFate::clipped: return at("clipped");
-        case RayFate::stop: return at("stop");
+        case RayFate::ok:
+            return "ok";
+        case RayFate::miss:
+            return at("miss");
+        case RayFate::tir:
+            return at("tir");
+        case RayFate::turned:
+            return at("turned");
+        case RayFate::clipped:
+            return at("clipped");
+        case RayFate::stop:
+            return at("stop");
     }
     return "ok";
 }

@@ -50,8 +50,8 @@ struct RayHit {
     glm::dvec3 point{};        ///< mm, z = 0 at the first vertex
     double cos_incidence = 1;  ///< in the medium the ray comes from
     bool reflected = false;
-    double intensity = 1;      ///< polarisation carried, just after this event
-    double r_rel = 0;          ///< r over the clear radius (over the stop's radius at the stop)
+    double intensity = 1;  ///< polarisation carried, just after this event
+    double r_rel = 0;      ///< r over the clear radius (over the stop's radius at the stop)
 };
 
 /// A ray followed to the sensor. Clipped rays are followed too (virtual extension of surfaces).

@@ -12,12 +12,12 @@ namespace ghostlight {
 /// One event of a path, flattened: all that the trace needs, on the scalar T.
 template <class T>
 struct TraceStep {
-    T gap_mm;           ///< previous vertex z minus this one's: added to the ray's z
+    T gap_mm;  ///< previous vertex z minus this one's: added to the ray's z
     T curvature, conic;
-    T inverse_clear;    ///< 1 / semi-diameter
-    T n_in, n_out;      ///< along travel; n_out is the far side's also where the ray reflects
-    T eta;              ///< n_in / n_out
-    T sense;            ///< nominal direction of travel before the event, ±1
+    T inverse_clear;  ///< 1 / semi-diameter
+    T n_in, n_out;    ///< along travel; n_out is the far side's also where the ray reflects
+    T eta;            ///< n_in / n_out
+    T sense;          ///< nominal direction of travel before the event, ±1
     int first_aspheric, aspheric_count;
     int first_layer, layer_count;
     int surface;
@@ -31,7 +31,7 @@ struct TracePath {
     std::vector<TraceStep<T>> steps;
     std::vector<T> aspheric;  ///< coefficients A4, A6, … of all aspheric steps
     std::vector<LayerAt<T>> layers;
-    T sensor_gap_mm{};        ///< last vertex z minus the sensor's
+    T sensor_gap_mm{};  ///< last vertex z minus the sensor's
     int stop_crossings = 0;
 };
 

@@ -44,7 +44,7 @@ struct RayAt {
 /// What a ray met. The margins are positive while the ray is valid.
 template <class V>
 struct Meeting {
-    Vec3<V> normal;       ///< unit, turned so that d·N̂ ≥ 0
+    Vec3<V> normal;  ///< unit, turned so that d·N̂ ≥ 0
     V cos_incidence;
     V turned_margin;      ///< component along the nominal direction of travel
     V miss_margin;        ///< root argument of the intersection
@@ -55,7 +55,8 @@ namespace detail {
 
 /// Sag and dsag/d(r²) of an even asphere; `domain` is 1 − (1+k)c²r².
 template <class V, class T>
-GHOSTLIGHT_INLINE void sag_of(const TraceStep<T>& step, const T* a, const V& r2, V& sag, V& slope, V& domain) {
+GHOSTLIGHT_INLINE void sag_of(const TraceStep<T>& step, const T* a, const V& r2, V& sag, V& slope,
+                              V& domain) {
     using L = Lane<V>;
     const T c = step.curvature;
     domain = L(1) - (L(1) + step.conic) * c * c * r2;
@@ -115,9 +116,9 @@ void refine_asphere(const TraceStep<T>& step, const T* a, const V& margin, RayAt
             high = select(below, high, middle);
         }
         const Vec3<V> found = along(start, ray.direction, low);
-        ray.position = Vec3<V>(select(far, found.x, ray.position.x),
-                               select(far, found.y, ray.position.y),
-                               select(far, found.z, ray.position.z));
+        ray.position =
+            Vec3<V>(select(far, found.x, ray.position.x), select(far, found.y, ray.position.y),
+                    select(far, found.z, ray.position.z));
         f = miss(ray.position);
         const auto lost = far && !(bracketed && magnitude(f) <= L(64) * tolerance);
         meeting.miss_margin = select(lost, V(L(-1)), domain);
@@ -218,7 +219,7 @@ GHOSTLIGHT_INLINE JonesState<V> jones_start(const Vec3<T>& e1) {
 /// direction before the event.
 template <class V>
 GHOSTLIGHT_INLINE void apply(const Amplitudes<V>& film, bool reflects, const Meeting<V>& meeting,
-           const Vec3<V>& before, JonesState<V>& state) {
+                             const Vec3<V>& before, JonesState<V>& state) {
     using std::sqrt;
     using L = Lane<V>;
     const Vec3<V> n = cross(before, meeting.normal);
@@ -244,7 +245,7 @@ GHOSTLIGHT_INLINE void apply(const Amplitudes<V>& film, bool reflects, const Mee
 
 template <class V, class T>
 GHOSTLIGHT_INLINE Amplitudes<V> amplitudes(const TraceStep<T>& step, const LayerAt<T>* layers,
-                         const V& cos_incidence) {
+                                           const V& cos_incidence) {
     const LayerAt<T>* own = layers + step.first_layer;
     return step.absorbing
                ? film_amplitudes<true>(step.n_in, own, step.layer_count, step.n_out, cos_incidence)

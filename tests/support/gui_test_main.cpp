@@ -1,4 +1,5 @@
-// main() of the GUI tests: one QApplication for all of them, and settings kept away from the user's.
+// main() of the GUI tests: one QApplication for all of them, and settings kept away from the
+// user's.
 
 #include <gtest/gtest.h>
 
