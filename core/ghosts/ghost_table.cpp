@@ -18,6 +18,7 @@ constexpr int peak_width_px = 1280;
 constexpr int coarsest_peak_grid = 32, finest_peak_grid = 512;
 constexpr double peak_tolerance = 0.05;  ///< change on doubling the grid at which a peak is settled
 constexpr int fewest_nodes = 5;          ///< of the spectrum; refined until two sets agree
+constexpr int coarser_nodes = 3;         ///< every other one of the fewest
 constexpr int most_nodes = 33;
 constexpr double faint_share = 1e-6;  ///< of the strongest ghost: nothing is refined below it
 
@@ -156,12 +157,20 @@ class TableBuilder {
         sum_up(path, first_nodes());
     }
 
-    /// Pupil and spectrum share what is allowed in halves.
+    double flux_on(const PathOverSpectrum& path, int nodes) const {
+        double flux = 0.0;
+        for (const SpectralSample& s : nested_samples(request_.spectrum, nodes))
+            flux += s.weight * path.at.at(s.wavelength_nm).sums.flux;
+        return flux;
+    }
+
+    /// Pupil and spectrum share what is allowed in halves. The spectral rule converges
+    /// geometrically: what is left is the last change times the ratio of the last two, taken twice.
     void refine(PathOverSpectrum& path, const GhostPath& ghost, double floor_mm2,
                 std::stop_token stop) const {
         const double part = monochromatic_ ? 1.0 : 0.5;
         const double share = part * request_.tolerance;
-        double spectral_error = 0.0, before = 0.0;
+        double spectral_error = 0.0, before = 0.0, change_before = 0.0;
         for (int nodes = first_nodes(); nodes <= last_nodes(); nodes = next(nodes)) {
             for (const SpectralSample& s : nested_samples(request_.spectrum, nodes)) {
                 const PathQuadrature at_nm = quadrature(ghost, s.wavelength_nm);
@@ -170,10 +179,14 @@ class TableBuilder {
                 at_nm.refine(entry->second, share, part * floor_mm2, stop);
             }
             sum_up(path, nodes);
-            spectral_error = std::abs(path.sums.flux - before);
+            if (monochromatic_) break;
+            if (nodes == first_nodes()) before = flux_on(path, coarser_nodes);
+            const double change = std::abs(path.sums.flux - before);
+            const double ratio = change_before > 0.0 ? 2.0 * change / change_before : 1.0;
+            spectral_error = change * std::min(1.0, ratio);
             before = path.sums.flux;
-            const bool compared = nodes > first_nodes();
-            if (compared && spectral_error <= std::max(share * before, part * floor_mm2)) break;
+            change_before = change;
+            if (spectral_error <= std::max(share * before, part * floor_mm2)) break;
         }
         if (!monochromatic_) path.error_mm2 += spectral_error;
     }
