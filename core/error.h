@@ -28,10 +28,22 @@ class Error : public std::runtime_error {
 
 /// A finding that does not stop the work: what a reader noticed, where, and whether it matters.
 struct Note {
-    enum class Severity { info, warning };
+    /// `error`: the lens is open, but cannot be traced until this is mended.
+    enum class Severity { info, warning, error };
+    /// What became of the thing noticed.
+    enum class Fate {
+        noticed,    ///< taken as it is, but odd
+        read,       ///< taken as it is
+        converted,  ///< taken, in another unit or form
+        assumed,    ///< not in the file: a value was chosen
+        left_out    ///< in the file, but not used
+    };
     Severity severity = Severity::info;
-    std::string where;
+    std::string where;  ///< "line 12", "SURF 5", "surfaces[3].nd"
     std::string text;
+    Fate fate = Fate::noticed;
+    bool matters_for_flare = false;  ///< changes where ghosts land, or how bright they are
+    std::string proposal;            ///< what to do about it; empty when there is nothing to do
     bool operator==(const Note&) const = default;
 };
 using Notes = std::vector<Note>;

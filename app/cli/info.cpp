@@ -70,9 +70,8 @@ void run(const InfoOptions& options) {
     if (!options.output.csv && !options.output.json) {
         std::string text = readable(loaded, wavelength_nm, values);
         for (const Note& note : loaded.notes)
-            text += fmt::format("\n  {}: {}{}{}\n",
-                                note.severity == Note::Severity::warning ? "warning" : "note",
-                                note.where, note.where.empty() ? "" : ": ", note.text);
+            text += fmt::format("\n  {}: {}{}{}\n", severity_name(note.severity), note.where,
+                                note.where.empty() ? "" : ": ", note.text);
         write_text(text, options.output);
         return;
     }

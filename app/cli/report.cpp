@@ -61,12 +61,23 @@ void write_text(std::string_view text, const OutputOptions& options) {
         write_file_safely(options.file, text);
 }
 
+std::string_view severity_name(Note::Severity severity) {
+    switch (severity) {
+        case Note::Severity::info:
+            return "note";
+        case Note::Severity::warning:
+            return "warning";
+        case Note::Severity::error:
+            return "error";
+    }
+    return {};
+}
+
 void print_notes(const Notes& notes, Note::Severity least) {
     for (const Note& note : notes) {
         if (note.severity < least) continue;
-        write_standard_error(
-            fmt::format("{}: {}{}{}", note.severity == Note::Severity::warning ? "warning" : "note",
-                        note.where, note.where.empty() ? "" : ": ", note.text));
+        write_standard_error(fmt::format("{}: {}{}{}", severity_name(note.severity), note.where,
+                                         note.where.empty() ? "" : ": ", note.text));
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/io/formats.h"
 #include "core/io/json_value.h"
 #include "core/io/lens_json.h"
 #include "core/io/read_text.h"
@@ -47,7 +48,9 @@ LensFile lens_from_json(std::string_view text, const std::string& file) {
 }
 
 LensFile read_lens(const std::filesystem::path& file) {
-    LensFile result = lens_from_json(read_text(file), file.string());
+    const std::string text = utf8_text(read_text(file));
+    const FormatSource source{text, file};
+    LensFile result = format_of(source).read(source);
     if (result.lens.name.empty()) result.lens.name = file.stem().string();
     return result;
 }

@@ -69,11 +69,11 @@ Surface read_surface(const JsonAt& object, bool is_last) {
     constexpr std::string_view semi_diameter = "the clear radius in mm";
     surface.semi_diameter_mm = object.at("semi_diameter_mm", semi_diameter).number(semi_diameter);
     surface.comment = optional_text(object, "comment");
-    keep_unknown(
-        object,
-        {"radius_mm", "curvature_per_mm", "conic", "aspheric", "aspheric_mm", "thickness_mm",
-         "glass", "model", "index", "formula", "semi_diameter_mm", "coating", "comment"},
-        surface.unknown);
+    keep_unknown(object,
+                 {"radius_mm", "curvature_per_mm", "conic", "aspheric", "aspheric_mm",
+                  "thickness_mm", "glass", "model", "index", "formula", "unknown_glass",
+                  "semi_diameter_mm", "coating", "comment"},
+                 surface.unknown);
     surface.medium_after = read_medium(object, surface.unknown);
     if (const auto coating = object.find("coating"))
         surface.coating = read_coating(*coating, surface.unknown);

@@ -57,6 +57,7 @@ struct WriteDispersion {
     Json& object;
 
     void operator()(const ConstantIndex& glass) const { object["index"] = glass.n; }
+    void operator()(const UnknownGlass& glass) const { object["unknown_glass"] = glass.why; }
     void operator()(const ModelGlass& glass) const {
         object["model"] = Json{{"nd", glass.nd}, {"vd", glass.vd}};
     }
@@ -191,13 +192,16 @@ Medium read_medium(const JsonAt& object, UnknownFields& unknown, const std::stri
     const auto model = object.find("model");
     const auto index = object.find("index");
     const auto formula = object.find("formula");
-    if ((model ? 1 : 0) + (index ? 1 : 0) + (formula ? 1 : 0) > 1)
-        object.refuse("more than one of model, index and formula", "one of them");
-    if (!model && !index && !formula) return glass ? named_glass(*glass) : Medium{};
+    const auto nobodys = object.find("unknown_glass");
+    if ((model ? 1 : 0) + (index ? 1 : 0) + (formula ? 1 : 0) + (nobodys ? 1 : 0) > 1)
+        object.refuse("more than one of model, index, formula and unknown_glass", "one of them");
+    if (!model && !index && !formula && !nobodys) return glass ? named_glass(*glass) : Medium{};
 
     Medium medium;
     if (glass) medium.name = glass->text("the name of a glass");
-    if (index) {
+    if (nobodys) {
+        medium.dispersion = UnknownGlass{nobodys->text("why the glass is not known")};
+    } else if (index) {
         medium.dispersion = ConstantIndex{index->number("an index")};
     } else if (model) {
         model->require_object("{\"nd\": …, \"vd\": …}");

@@ -92,6 +92,14 @@ struct IndexAt {
         return n;
     }
 
+    double operator()(const UnknownGlass& glass) const {
+        throw Error({.problem = fmt::format("glass {} is not known: {}", label(), glass.why),
+                     .file = {},
+                     .where = {},
+                     .found = {},
+                     .expected = "a glass of the catalogue, a model glass (nd, Vd) or an index"});
+    }
+
     std::string label() const { return name.empty() ? "without a name" : "'" + name + "'"; }
 
     [[noreturn]] void refuse(double value, const char* why) const {

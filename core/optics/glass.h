@@ -34,7 +34,13 @@ struct FormulaGlass {
     bool operator==(const FormulaGlass&) const = default;
 };
 
-using Dispersion = std::variant<ConstantIndex, ModelGlass, FormulaGlass>;
+/// A glass that a file names and nobody knows: it has no index until somebody says which it is.
+struct UnknownGlass {
+    std::string why;  ///< "not in the catalogues SCHOTT, OHARA, and the file gives no nd"
+    bool operator==(const UnknownGlass&) const = default;
+};
+
+using Dispersion = std::variant<ConstantIndex, ModelGlass, FormulaGlass, UnknownGlass>;
 
 /// What fills the space after a surface. `name` is the catalogue's, or empty.
 struct Medium {

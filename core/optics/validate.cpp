@@ -85,6 +85,8 @@ struct CheckDispersion {
         require(!std::isnan(glass.max_nm), where + ".formula.range_nm", glass.max_nm,
                 "not a number", "a wavelength in nm");
     }
+    // It can be opened and mended, though not traced: refractive_index() says so.
+    void operator()(const UnknownGlass&) const {}
     void index(const std::string& field, double n) const {
         require(n >= smallest_index && n > 0.0 && n <= largest_index, field, n,
                 "not a usable index",

@@ -124,6 +124,9 @@ QString text_of_medium(const Medium& medium) {
     if (!medium.name.empty()) {
         return QString::fromStdString(medium.name);
     }
+    if (std::holds_alternative<UnknownGlass>(medium.dispersion)) {
+        return QStringLiteral("?");
+    }
     if (std::holds_alternative<ConstantIndex>(medium.dispersion)) {
         return shortest(fixed_index(medium));
     }

@@ -1,0 +1,83 @@
+#include "core/io/formats.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "core/error.h"
+
+namespace ghostlight {
+namespace {
+
+LensFile read_json(const FormatSource& source) {
+    return lens_from_json(source.text, source.file.string());
+}
+bool looks_like_json(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    return first != std::string_view::npos && text[first] == '{';
+}
+std::string write_json(const Prescription& lens, Notes&) { return lens_to_json(lens); }
+
+constexpr std::array formats = {
+    LensFormat{"Ghostlight or listing JSON", ".json", looks_like_json, read_json, write_json},
+};
+
+std::string lower_extension(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+bool has_extension(const LensFormat& format, std::string_view extension) {
+    return !extension.empty() &&
+           fmt::format(" {} ", format.extensions).find(fmt::format(" {} ", extension)) !=
+               std::string::npos;
+}
+
+template <class Chosen>
+std::string listed(Chosen chosen) {
+    std::string text;
+    for (const LensFormat& format : formats)
+        if (chosen(format))
+            text +=
+                fmt::format("{}{} ({})", text.empty() ? "" : ", ", format.name, format.extensions);
+    return text;
+}
+
+}  // namespace
+
+std::span<const LensFormat> lens_formats() { return formats; }
+
+const LensFormat& format_of(const FormatSource& source) {
+    const std::string extension = lower_extension(source.file);
+    for (const bool by_extension : {true, false})
+        for (const LensFormat& format : formats)
+            if ((!by_extension || has_extension(format, extension)) &&
+                format.recognises(source.text))
+                return format;
+    // What has a known extension is read as that, for the sake of the message.
+    for (const LensFormat& format : formats)
+        if (has_extension(format, extension)) return format;
+    throw Error({.problem = "not a lens file",
+                 .file = source.file.string(),
+                 .where = {},
+                 .found = {},
+                 .expected = "one of " + listed([](const LensFormat&) { return true; })});
+}
+
+const LensFormat& writable_format(const std::filesystem::path& file) {
+    const std::string extension = lower_extension(file);
+    for (const LensFormat& format : formats)
+        if (format.write != nullptr && has_extension(format, extension)) return format;
+    throw Error(
+        {.problem = "no format to write by this name",
+         .file = file.string(),
+         .where = {},
+         .found = extension.empty() ? "no extension" : extension,
+         .expected = "one of " + listed([](const LensFormat& f) { return f.write != nullptr; })});
+}
+
+}  // namespace ghostlight
