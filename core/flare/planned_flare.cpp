@@ -18,10 +18,6 @@ double ms_since(Clock::time_point began) {
 }
 
 constexpr int band_rows = 16;
-/// Errors of ghosts cancel in part where they overlap, and the estimates are cautious: what is
-/// granted in all, over what is asked.
-constexpr double granted_share = 1.0;
-constexpr double most_share = 0.5;  ///< of a ghost's own light
 
 /// Which bands of its level's picture each item touches, by counting sort.
 struct ByBand {
@@ -148,27 +144,16 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
     image.plan.tolerance = request.tolerance;
 
     const GhostPlanner planner(scene, request.light, frame);
-    std::vector<ProbedGhost> probed(scene.ghosts.size());
-    bool finished = parallel_for(probed.size(), request.threads, stop, [&](std::size_t g) {
-        probed[g] = planner.probe(scene.ghosts[g]);
-    });
-    if (!finished) return std::nullopt;
+    auto found = probe_all(scene, planner, request, stop);
+    if (!found) return std::nullopt;
+    std::vector<ProbedGhost>& probed = *found;
     image.times.bounds_ms = ms_since(began);
 
     const auto traced = Clock::now();
-    std::vector<double> flux;
-    double total = 0.0;
-    for (const ProbedGhost& ghost : probed) {
-        flux.push_back(ghost.planned.flux_mm2);
-        total += flux.back();
-    }
-    const std::vector<double> allowance =
-        share_out(flux, granted_share * request.tolerance * total, most_share);
-    for (std::size_t g = 0; g < probed.size(); ++g) probed[g].planned.allowance_mm2 = allowance[g];
     std::vector<DrawnGhost<C>> drawn(probed.size());
     std::vector<DrawnGhost<gray_channels>> highlighted(request.highlighted.empty() ? 0
                                                                                    : probed.size());
-    finished = parallel_for(probed.size(), request.threads, stop, [&](std::size_t g) {
+    bool finished = parallel_for(probed.size(), request.threads, stop, [&](std::size_t g) {
         if (probed[g].planned.fate != GhostFate::drawn) return;
         planner.draw(probed[g], drawn[g].mesh);
         drawn[g].level = probed[g].planned.level;

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/flare/picture_levels.h"
+#include "core/parallel.h"
 #include "core/units.h"
 
 namespace ghostlight {
 namespace {
 
+constexpr double most_share = 0.5;  ///< of a ghost's own light, that its error may reach
 constexpr int probe_cells = 12;
 constexpr int close_cells = 48;          ///< where hardly a ray of a probe passes
 constexpr std::size_t few_passing = 12;  ///< of a probe's nodes
@@ -535,37 +538,21 @@ void GhostPlanner::draw_singular(const MirrorGrid& grid, const std::vector<int>&
     }
 }
 
-template <int C>
-void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
-    PlannedGhost& planned = ghost.planned;
-    const double pixel_mm2 = frame_.pixel_area_mm2();
+GhostPlanner::Fineness GhostPlanner::choose(const ProbedGhost& ghost, const MirrorGrid& first,
+                                            double contrast) const {
+    const PlannedGhost& planned = ghost.planned;
     const double flux = std::max(planned.flux_mm2, 1e-300);
     const MirrorGrid& probe = ghost.grids[scene_.main];
-    auto trace_grid = [&](std::size_t node, int cells, Weights weights) {
-        MirrorGrid grid{planned.box, cells, {}};
-        grid.half.keep_cosines = weights != Weights::none;
-        trace_mirrored(trace_path<float>(scene_.geometry[node], planned.path), beam_, weights,
-                       grid);
-        planned.rays += grid.half.size();
-        return grid;
-    };
-    MirrorGrid closer;
-    if (planned.cells != probe_cells)
-        closer = trace_grid(scene_.main, planned.cells, Weights::none);
-    const MirrorGrid& first = planned.cells == probe_cells ? probe : closer;
-    draw_grids({&first}, probe, ghost.weights, 1, false, planned, mesh);
-
+    Fineness fineness;
     // The grid: the error of a bilinear map falls fourfold on doubling it.
-    const MeshNodes first_nodes = place(first);
-    const double contrast = mesh.edge_contrast * pixel_mm2;
-    double grid_error = grid_factor * contrast * bend_px(first_nodes, frame_);
+    double grid_error = grid_factor * contrast * bend_px(place(first), frame_);
     const double grid_allowed =
         std::max(unsaturated(grid_share * planned.allowance_mm2, flux), 1e-300);
-    int cells = planned.cells;
+    fineness.cells = planned.cells;
     if (grid_error > grid_allowed)
-        cells = std::min(finest_cells,
-                         4 * static_cast<int>(std::ceil(0.25 * planned.cells *
-                                                        std::sqrt(grid_error / grid_allowed))));
+        fineness.cells = std::min(
+            finest_cells, 4 * static_cast<int>(std::ceil(0.25 * planned.cells *
+                                                         std::sqrt(grid_error / grid_allowed))));
 
     // The bands: what is left of the shift of colours. Light is spread over about the shift between
     // the outer nodes, and lands a quarter of a band's share of it from where it should on average.
@@ -573,7 +560,7 @@ void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
     const double band_error = 0.25 * shift_px * contrast;
     const double band_allowed =
         std::max(unsaturated(band_share * planned.allowance_mm2, flux), 1e-300);
-    const int bands =
+    fineness.bands =
         std::clamp(static_cast<int>(std::ceil(band_error / band_allowed)), 1, most_bands);
 
     // The weights: from the probe where they are smooth, else traced on the grid itself; where rays
@@ -582,28 +569,71 @@ void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
     double weight_error =
         flux * roughness(probe, light_of<gray_channels>(probe, ghost.weights,
                                                         channel_shares<gray_channels>(0, 1)));
-    const bool rough = weight_error > weight_allowed;
-    if (rough)
-        cells = std::max(
-            cells,
+    fineness.rough = weight_error > weight_allowed;
+    if (fineness.rough)
+        fineness.cells = std::max(
+            fineness.cells,
             std::min(most_rough_cells,
                      4 * static_cast<int>(std::ceil(0.25 * probe_cells *
                                                     std::sqrt(weight_error / weight_allowed)))));
-    const bool split =
+    fineness.split =
         flux > split_above * planned.allowance_mm2 && !singular_cells(probe, place(probe)).empty();
 
+    const double finer = static_cast<double>(planned.cells) / fineness.cells;
+    grid_error *= finer * finer;
+    if (fineness.rough)
+        weight_error *=
+            static_cast<double>(probe_cells * probe_cells) / (fineness.cells * fineness.cells);
+    fineness.error_mm2 = saturated(grid_error, flux) +
+                         saturated(band_error / fineness.bands, flux) +
+                         std::min(weight_error, flux);
+    return fineness;
+}
+
+void GhostPlanner::choose_level(const Fineness& fineness, double contrast,
+                                PlannedGhost& planned) const {
+    const double flux = std::max(planned.flux_mm2, 1e-300);
+    const double allowed =
+        std::max(planned.allowance_mm2 - fineness.error_mm2, level_share * planned.allowance_mm2);
+    auto level_error = [&](int level) { return saturated(blur_px(level) * contrast, flux); };
+    planned.level = 0;
+    while (planned.level + 1 < picture_levels && level_error(planned.level + 1) <= allowed)
+        ++planned.level;
+    planned.error_mm2 = fineness.error_mm2 + level_error(planned.level);
+}
+
+MirrorGrid GhostPlanner::trace_grid(std::size_t node, int cells, Weights weights,
+                                    PlannedGhost& planned) const {
+    MirrorGrid grid{planned.box, cells, {}};
+    grid.half.keep_cosines = weights != Weights::none;
+    trace_mirrored(trace_path<float>(scene_.geometry[node], planned.path), beam_, weights, grid);
+    planned.rays += grid.half.size();
+    return grid;
+}
+
+template <int C>
+void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
+    PlannedGhost& planned = ghost.planned;
+    const double pixel_mm2 = frame_.pixel_area_mm2();
+    const MirrorGrid& probe = ghost.grids[scene_.main];
+    MirrorGrid closer;
+    if (planned.cells != probe_cells)
+        closer = trace_grid(scene_.main, planned.cells, Weights::none, planned);
+    const MirrorGrid& first = planned.cells == probe_cells ? probe : closer;
+    draw_grids({&first}, probe, ghost.weights, 1, false, planned, mesh);
+    const Fineness fineness = choose(ghost, first, mesh.edge_contrast * pixel_mm2);
+    const auto [cells, bands, rough, split, error_mm2] = fineness;
+
     if (cells != planned.cells || bands > 1 || rough || split) {
-        const double finer = static_cast<double>(planned.cells) / cells;
-        grid_error *= finer * finer;
-        if (rough) weight_error *= static_cast<double>(probe_cells * probe_cells) / (cells * cells);
         planned.cells = cells;
         planned.bands = bands;
         MirrorGrid main =
-            trace_grid(scene_.main, cells, rough ? Weights::polarised : Weights::none);
+            trace_grid(scene_.main, cells, rough ? Weights::polarised : Weights::none, planned);
         std::vector<MirrorGrid> others;
         if (bands > 1)
             for (std::size_t g = 0; g < scene_.geometry.size(); ++g)
-                if (g != scene_.main) others.push_back(trace_grid(g, cells, Weights::none));
+                if (g != scene_.main)
+                    others.push_back(trace_grid(g, cells, Weights::none, planned));
         std::vector<const MirrorGrid*> geometry{&main};
         if (bands > 1) {
             geometry.clear();
@@ -618,17 +648,43 @@ void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
         else
             draw_grids(geometry, probe, ghost.weights, bands, split, planned, mesh);
     }
+    choose_level(fineness, mesh.edge_contrast * pixel_mm2, planned);
+}
 
-    const double so_far = saturated(grid_error, flux) + saturated(band_error / bands, flux) +
-                          std::min(weight_error, flux);
-    const double level_allowed =
-        std::max(planned.allowance_mm2 - so_far, level_share * planned.allowance_mm2);
-    const double final_contrast = mesh.edge_contrast * pixel_mm2;
-    auto level_error = [&](int level) { return saturated(blur_px(level) * final_contrast, flux); };
-    planned.level = 0;
-    while (planned.level + 1 < picture_levels && level_error(planned.level + 1) <= level_allowed)
-        ++planned.level;
-    planned.error_mm2 = so_far + level_error(planned.level);
+GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
+    PlannedGhost& planned = ghost.planned;
+    const double pixel_mm2 = frame_.pixel_area_mm2();
+    const MirrorGrid& probe = ghost.grids[scene_.main];
+    MirrorGrid closer;
+    if (planned.cells != probe_cells)
+        closer = trace_grid(scene_.main, planned.cells, Weights::none, planned);
+    const MirrorGrid& first = planned.cells == probe_cells ? probe : closer;
+    ColorMesh<gray_channels> mesh;
+    draw_grids({&first}, probe, ghost.weights, 1, false, planned, mesh);
+    const Fineness fineness = choose(ghost, first, mesh.edge_contrast * pixel_mm2);
+    planned.cells = fineness.cells;
+    planned.bands = fineness.bands;
+    choose_level(fineness, mesh.edge_contrast * pixel_mm2, planned);
+
+    GhostDrawing drawing;
+    MirrorGrid fine;
+    std::vector<float> fine_weights;
+    if (fineness.rough) {
+        fine = trace_grid(scene_.main, planned.cells, Weights::polarised, planned);
+        fine_weights = weigh(trace_path<float>(scene_.system(), planned.path), fine);
+    }
+    const MirrorGrid& grid = fineness.rough ? fine : probe;
+    const std::vector<float>& weights = fineness.rough ? fine_weights : ghost.weights;
+    const ColorAxis axis(scene_.samples);
+    drawing.light_cells = grid.cells;
+    for (int band = 0; band < planned.bands; ++band) {
+        const std::vector<float> light = light_of<color_channels>(
+            grid, weights, channel_shares<color_channels>(band, planned.bands));
+        drawing.light.insert(drawing.light.end(), light.begin(), light.end());
+        drawing.band_nm.push_back(axis.wavelength_nm((band + 0.5) / planned.bands));
+    }
+    drawing.planned = planned;
+    return drawing;
 }
 
 /// RMS distance on the sensor between the outer geometry wavelengths.
@@ -648,6 +704,26 @@ double GhostPlanner::color_shift_px(const ProbedGhost& ghost) const {
         ++count;
     }
     return count > 0 ? std::sqrt(square / count) : 0.0;
+}
+
+std::optional<std::vector<ProbedGhost>> probe_all(const FlareScene& scene,
+                                                  const GhostPlanner& planner,
+                                                  const FlareRequest& request,
+                                                  std::stop_token stop) {
+    std::vector<ProbedGhost> probed(scene.ghosts.size());
+    const bool finished =
+        parallel_for(probed.size(), request.threads, std::move(stop),
+                     [&](std::size_t g) { probed[g] = planner.probe(scene.ghosts[g]); });
+    if (!finished) return std::nullopt;
+    std::vector<double> flux;
+    double total = 0.0;
+    for (const ProbedGhost& ghost : probed) {
+        flux.push_back(ghost.planned.flux_mm2);
+        total += flux.back();
+    }
+    const std::vector<double> allowance = share_out(flux, request.tolerance * total, most_share);
+    for (std::size_t g = 0; g < probed.size(); ++g) probed[g].planned.allowance_mm2 = allowance[g];
+    return probed;
 }
 
 template <int C>
