@@ -1,0 +1,170 @@
+#include "render/gl_flare/flare_batch.h"
+
+#include <algorithm>
+#include <string>
+
+#include "core/error.h"
+
+namespace ghostlight {
+namespace {
+
+/// Nodes of a batch: 64 MiB of them, half of what every storage block may hold.
+constexpr std::size_t most_nodes = std::size_t{1} << 20;
+
+[[noreturn]] void refuse(const char* what, std::size_t found, std::size_t most) {
+    throw Error(
+        {.problem = std::string("the lens is too large for the graphics card's path: ") + what,
+         .file = {},
+         .where = {},
+         .found = std::to_string(found),
+         .expected = "at most " + std::to_string(most)});
+}
+
+void add_groups(std::size_t record, std::size_t items, std::vector<GroupRecord>& groups) {
+    for (std::size_t first = 0; first < items; first += group_threads)
+        groups.push_back({static_cast<std::uint32_t>(record), static_cast<std::uint32_t>(first)});
+}
+
+/// Lays the records of one ghost.
+class Packer {
+   public:
+    Packer(const FlareScene& scene, const FlareDrawing& drawing, const LensBlock& lens)
+        : scene_(scene), drawing_(drawing), lens_(lens) {}
+
+    static std::size_t nodes_of(const PlannedGhost& ghost) {
+        const auto side = static_cast<std::size_t>(ghost.cells) + 1;
+        return side * side * static_cast<std::size_t>(ghost.bands);
+    }
+
+    void add(const GhostDrawing& ghost, bool highlighted, FlareBatch& batch) const {
+        const PlannedGhost& planned = ghost.planned;
+        const std::size_t geometries = planned.bands > 1 ? scene_.geometry.size() : 1;
+        Int4 first_rays{0, 0, 0, static_cast<std::int32_t>(geometries)};
+        for (std::size_t g = 0; g < geometries; ++g)
+            first_rays[g] = add_bundle(planned, geometries == 1 ? scene_.main : g, batch);
+        const auto side = planned.cells + 1;
+        const int light_nodes = (ghost.light_cells / 2 + 1) * (ghost.light_cells + 1);
+        const double cell_px2 = planned.box.area_mm2() / (planned.cells * planned.cells) /
+                                drawing_.frame.pixel_area_mm2();
+        const auto level = static_cast<std::size_t>(planned.level);
+        for (int band = 0; band < planned.bands; ++band) {
+            SheetRecord sheet{};
+            sheet.grid = {planned.cells, static_cast<std::int32_t>(batch.nodes), ghost.light_cells,
+                          static_cast<std::int32_t>(batch.light.size()) + band * light_nodes};
+            sheet.rays = first_rays;
+            if (geometries > 1) {
+                const auto shares =
+                    scene_.interpolation(ghost.band_nm[static_cast<std::size_t>(band)]);
+                for (std::size_t g = 0; g < geometries; ++g)
+                    sheet.shares[g] = static_cast<float>(shares[g]);
+            }
+            sheet.shares[3] = static_cast<float>(cell_px2);
+            sheet.more = {geometries > 1 ? static_cast<std::int32_t>(scene_.main) : 0,
+                          stop_crossings(planned.path), 0, 0};
+            const std::size_t index = batch.sheets.size();
+            const DrawCommand draw{static_cast<std::uint32_t>(6 * planned.cells * planned.cells), 1,
+                                   0, static_cast<std::uint32_t>(index)};
+            batch.draws[level].push_back(draw);
+            if (highlighted) batch.highlighted[level].push_back(draw);
+            batch.sheets.push_back(sheet);
+            add_groups(index, static_cast<std::size_t>(side * side), batch.sheet_groups);
+            batch.nodes += static_cast<std::size_t>(side * side);
+            batch.cells += static_cast<std::size_t>(planned.cells * planned.cells);
+        }
+        for (std::size_t k = 0; k < ghost.light.size(); k += 4)
+            batch.light.push_back(
+                {ghost.light[k], ghost.light[k + 1], ghost.light[k + 2], ghost.light[k + 3]});
+    }
+
+   private:
+    const FlareScene& scene_;
+    const FlareDrawing& drawing_;
+    const LensBlock& lens_;
+
+    int stop_crossings(const GhostPath& path) const {
+        const OpticalSystem& system = scene_.system();
+        return static_cast<int>(
+            std::ranges::count_if(events(path, system.surfaces.size()),
+                                  [&](const PathEvent& e) { return e.surface == system.stop; }));
+    }
+
+    std::int32_t add_bundle(const PlannedGhost& planned, std::size_t geometry,
+                            FlareBatch& batch) const {
+        const auto count = static_cast<std::size_t>((planned.cells / 2 + 1) * (planned.cells + 1));
+        const auto first = static_cast<std::int32_t>(batch.rays);
+        BundleRecord bundle{};
+        bundle.box = {static_cast<float>(planned.box.u1_mm), static_cast<float>(planned.box.v0_mm),
+                      static_cast<float>(planned.box.v1_mm), lens_.sensor_gap_mm};
+        bundle.grid = {planned.cells, first, static_cast<std::int32_t>(count),
+                       lens_.first_entry[geometry]};
+        const auto& turns = planned.path.reflections;
+        if (turns.size() > 2) refuse("reflections of one ghost", turns.size(), 2);
+        const OpticalSystem& system = scene_.system();
+        auto turn = [&](std::size_t k) {
+            return k < turns.size() ? static_cast<std::int32_t>(turns[k]) : -1;
+        };
+        bundle.path = {turn(0), turn(1), static_cast<std::int32_t>(system.stop),
+                       static_cast<std::int32_t>(system.surfaces.size())};
+        add_groups(batch.bundles.size(), count, batch.bundle_groups);
+        batch.bundles.push_back(bundle);
+        batch.rays += count;
+        return first;
+    }
+};
+
+}  // namespace
+
+LensBlock lens_block(const FlareScene& scene) {
+    LensBlock block;
+    const std::size_t count = scene.system().surfaces.size();
+    if (2 * count * scene.geometry.size() > block_entries)
+        refuse("surfaces at each geometry wavelength", count * scene.geometry.size(),
+               block_entries / 2);
+    std::vector<float> terms;
+    std::vector<int> first_terms;
+    for (const SurfaceAt& surface : scene.system().surfaces) {
+        first_terms.push_back(static_cast<int>(terms.size()));
+        for (const double a : surface.aspheric) terms.push_back(static_cast<float>(a));
+    }
+    if (terms.size() > 4 * block_entries) refuse("aspheric terms", terms.size(), 4 * block_entries);
+    terms.resize((terms.size() + 3) / 4 * 4);
+    for (std::size_t k = 0; k < terms.size(); k += 4)
+        block.aspheric_terms.push_back({terms[k], terms[k + 1], terms[k + 2], terms[k + 3]});
+    for (const OpticalSystem& system : scene.geometry) {
+        block.first_entry.push_back(static_cast<std::int32_t>(block.surfaces.size()));
+        double z = 0.0;
+        for (std::size_t k = 0; k < count; ++k) {
+            const SurfaceAt& s = system.surfaces[k];
+            block.surfaces.push_back({static_cast<float>(s.curvature_per_mm),
+                                      static_cast<float>(s.conic),
+                                      static_cast<float>(1.0 / s.semi_diameter_mm),
+                                      static_cast<float>(z - s.vertex_z_mm)});
+            block.surfaces.push_back({static_cast<float>(s.n_before), static_cast<float>(s.n_after),
+                                      static_cast<float>(first_terms[k]),
+                                      static_cast<float>(s.aspheric.size())});
+            z = s.vertex_z_mm;
+        }
+        block.sensor_gap_mm = static_cast<float>(z - system.sensor_z_mm);
+    }
+    block.surfaces.resize(block_entries);
+    block.aspheric_terms.resize(block_entries);
+    return block;
+}
+
+std::vector<FlareBatch> flare_batches(const FlareScene& scene, const FlareDrawing& drawing,
+                                      const LensBlock& lens,
+                                      const std::vector<GhostPath>& highlighted) {
+    const Packer packer(scene, drawing, lens);
+    std::vector<FlareBatch> batches;
+    for (const GhostDrawing& ghost : drawing.ghosts) {
+        if (batches.empty() ||
+            (batches.back().nodes > 0 &&
+             batches.back().nodes + Packer::nodes_of(ghost.planned) > most_nodes))
+            batches.emplace_back();
+        packer.add(ghost, std::ranges::find(highlighted, ghost.planned.path) != highlighted.end(),
+                   batches.back());
+    }
+    return batches;
+}
+
+}  // namespace ghostlight
