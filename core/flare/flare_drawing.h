@@ -22,6 +22,11 @@ struct GhostDrawing {
     std::vector<float> light;
     /// The wavelength of each band's positions, nm; one band is drawn where the main one lands.
     std::vector<double> band_nm;
+    /// Cells with u ≥ 0 that, with their mirror images, are drawn on grids of their own, at the
+    /// main wavelength: where rays begin to fail. Numbered row by row.
+    std::vector<int> singular;
+    int singular_across = 0;            ///< cells of such a grid across
+    std::vector<float> singular_light;  ///< 4 a node, cell by cell
 };
 
 /// All that is to be traced and drawn for a picture. The field lies in the y–z plane: points on the

@@ -496,15 +496,18 @@ void GhostPlanner::draw_grids(const std::vector<const MirrorGrid*>& geometry,
 }
 
 /// Traces singular cells of the half with u ≥ 0 on grids of their own, with films and polarisation
-/// at the main wavelength and the colour of their surroundings; draws them and their mirror images.
+/// at the main wavelength and the colour of their surroundings.
 template <int C>
-void GhostPlanner::draw_singular(const MirrorGrid& grid, const std::vector<int>& cells,
-                                 const MirrorGrid& weight_grid, const std::vector<float>& light,
-                                 const PlannedGhost& planned, ColorMesh<C>& mesh) const {
+GhostPlanner::SingularRays GhostPlanner::trace_singular(const MirrorGrid& grid,
+                                                        const std::vector<int>& cells,
+                                                        const MirrorGrid& weight_grid,
+                                                        const std::vector<float>& light,
+                                                        const PlannedGhost& planned) const {
     constexpr int side = split_cells + 1;
     const double du = (grid.box.u1_mm - grid.box.u0_mm) / grid.cells;
     const double dv = (grid.box.v1_mm - grid.box.v0_mm) / grid.cells;
-    Bundle<float> rays;
+    SingularRays result;
+    Bundle<float>& rays = result.rays;
     for (const int cell : cells)
         for (int j = 0; j < side; ++j)
             for (int i = 0; i < side; ++i) {
@@ -524,18 +527,30 @@ void GhostPlanner::draw_singular(const MirrorGrid& grid, const std::vector<int>&
                 color[c] += around[idx((j * grid.side() + i + corner) * C + c)];
         for (int c = 0; c < C; ++c) color[c] = color[C - 1] > 0.0F ? color[c] / color[C - 1] : 1.0F;
         color[C - 1] = 1.0F;
+        for (std::size_t k = n * side * side; k < (n + 1) * side * side; ++k)
+            for (int c = 0; c < C; ++c) result.weights.push_back(color[c] * rays.weight[k]);
+    }
+    return result;
+}
+
+/// Draws singular cells and their mirror images.
+template <int C>
+void GhostPlanner::draw_singular(const MirrorGrid& grid, const std::vector<int>& cells,
+                                 const MirrorGrid& weight_grid, const std::vector<float>& light,
+                                 const PlannedGhost& planned, ColorMesh<C>& mesh) const {
+    constexpr int side = split_cells + 1;
+    const auto [rays, weights] = trace_singular<C>(grid, cells, weight_grid, light, planned);
+    const double cell_area_mm2 =
+        grid.box.area_mm2() / (grid.cells * grid.cells * split_cells * split_cells);
+    for (std::size_t n = 0; n < cells.size(); ++n)
         for (const float mirror : {1.0F, -1.0F}) {
-            MeshNodes nodes =
-                place(rays, split_cells, du * dv / (split_cells * split_cells), [&](int a, int b) {
-                    return std::pair{n * side * side + idx(b * side + a), mirror};
-                });
-            nodes.weights.resize(idx(side * side * C));
-            for (std::size_t k = 0; k < idx(side * side); ++k)
-                for (std::size_t c = 0; c < C; ++c)
-                    nodes.weights[k * C + c] = color[c] * rays.weight[n * side * side + k];
+            MeshNodes nodes = place(rays, split_cells, cell_area_mm2, [&](int a, int b) {
+                return std::pair{n * side * side + idx(b * side + a), mirror};
+            });
+            const auto first = weights.begin() + static_cast<std::ptrdiff_t>(n * side * side * C);
+            nodes.weights.assign(first, first + side * side * C);
             add_grid(nodes, frame_, mesh);
         }
-    }
 }
 
 GhostPlanner::Fineness GhostPlanner::choose(const ProbedGhost& ghost, const MirrorGrid& first,
@@ -675,6 +690,20 @@ GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
     }
     const MirrorGrid& grid = fineness.rough ? fine : probe;
     const std::vector<float>& weights = fineness.rough ? fine_weights : ghost.weights;
+    if (fineness.split) {
+        const MirrorGrid main =
+            fineness.rough ? MirrorGrid{}
+                           : trace_grid(scene_.main, planned.cells, Weights::none, planned);
+        const MirrorGrid& geometry = fineness.rough ? fine : main;
+        drawing.singular = singular_cells(geometry, place(geometry));
+        drawing.singular_across = split_cells;
+        drawing.singular_light =
+            trace_singular<color_channels>(
+                geometry, drawing.singular, grid,
+                light_of<color_channels>(grid, weights, channel_shares<color_channels>(0, 1)),
+                planned)
+                .weights;
+    }
     const ColorAxis axis(scene_.samples);
     drawing.light_cells = grid.cells;
     for (int band = 0; band < planned.bands; ++band) {

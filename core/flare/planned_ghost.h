@@ -87,6 +87,14 @@ class GhostPlanner {
     void draw_grids(const std::vector<const MirrorGrid*>& geometry, const MirrorGrid& weight_grid,
                     const std::vector<float>& weights, int bands, bool split,
                     const PlannedGhost& planned, ColorMesh<C>& mesh) const;
+    struct SingularRays {
+        Bundle<float> rays;  ///< cell by cell
+        std::vector<float> weights;
+    };
+    template <int C>
+    SingularRays trace_singular(const MirrorGrid& grid, const std::vector<int>& cells,
+                                const MirrorGrid& weight_grid, const std::vector<float>& light,
+                                const PlannedGhost& planned) const;
     template <int C>
     void draw_singular(const MirrorGrid& grid, const std::vector<int>& cells,
                        const MirrorGrid& weight_grid, const std::vector<float>& light,

@@ -39,41 +39,35 @@ class Packer {
     void add(const GhostDrawing& ghost, bool highlighted, FlareBatch& batch) const {
         const PlannedGhost& planned = ghost.planned;
         const std::size_t geometries = planned.bands > 1 ? scene_.geometry.size() : 1;
-        Int4 first_rays{0, 0, 0, static_cast<std::int32_t>(geometries)};
+        const int half_side = planned.cells / 2 + 1;
+        const double du = (planned.box.u1_mm - planned.box.u0_mm) / planned.cells;
+        const double dv = (planned.box.v1_mm - planned.box.v0_mm) / planned.cells;
+        SheetRecord sheet{};
         for (std::size_t g = 0; g < geometries; ++g)
-            first_rays[g] = add_bundle(planned, geometries == 1 ? scene_.main : g, batch);
-        const auto side = planned.cells + 1;
+            sheet.rays[g] = add_bundle(planned.path, {0.0, planned.box.v0_mm, du, dv}, half_side,
+                                       planned.cells + 1, geometries == 1 ? scene_.main : g, batch);
+        sheet.rays[3] = static_cast<std::int32_t>(geometries);
+        sheet.grid = {planned.cells, 0, ghost.light_cells, 0};
+        sheet.more = {geometries > 1 ? static_cast<std::int32_t>(scene_.main) : 0,
+                      stop_crossings(planned.path), planned.cells / 2,
+                      ghost.singular.empty() ? -1 : skip(ghost, batch)};
+        sheet.shares[3] = static_cast<float>(du * dv / drawing_.frame.pixel_area_mm2());
         const int light_nodes = (ghost.light_cells / 2 + 1) * (ghost.light_cells + 1);
-        const double cell_px2 = planned.box.area_mm2() / (planned.cells * planned.cells) /
-                                drawing_.frame.pixel_area_mm2();
-        const auto level = static_cast<std::size_t>(planned.level);
+        const auto first_light = static_cast<std::int32_t>(batch.light.size());
+        const std::size_t first = batch.sheets.size();
         for (int band = 0; band < planned.bands; ++band) {
-            SheetRecord sheet{};
-            sheet.grid = {planned.cells, static_cast<std::int32_t>(batch.nodes), ghost.light_cells,
-                          static_cast<std::int32_t>(batch.light.size()) + band * light_nodes};
-            sheet.rays = first_rays;
             if (geometries > 1) {
                 const auto shares =
                     scene_.interpolation(ghost.band_nm[static_cast<std::size_t>(band)]);
                 for (std::size_t g = 0; g < geometries; ++g)
                     sheet.shares[g] = static_cast<float>(shares[g]);
             }
-            sheet.shares[3] = static_cast<float>(cell_px2);
-            sheet.more = {geometries > 1 ? static_cast<std::int32_t>(scene_.main) : 0,
-                          stop_crossings(planned.path), 0, 0};
-            const std::size_t index = batch.sheets.size();
-            const DrawCommand draw{static_cast<std::uint32_t>(6 * planned.cells * planned.cells), 1,
-                                   0, static_cast<std::uint32_t>(index)};
-            batch.draws[level].push_back(draw);
-            if (highlighted) batch.highlighted[level].push_back(draw);
-            batch.sheets.push_back(sheet);
-            add_groups(index, static_cast<std::size_t>(side * side), batch.sheet_groups);
-            batch.nodes += static_cast<std::size_t>(side * side);
-            batch.cells += static_cast<std::size_t>(planned.cells * planned.cells);
+            sheet.grid[3] = first_light + band * light_nodes;
+            add_sheet(sheet, batch);
         }
-        for (std::size_t k = 0; k < ghost.light.size(); k += 4)
-            batch.light.push_back(
-                {ghost.light[k], ghost.light[k + 1], ghost.light[k + 2], ghost.light[k + 3]});
+        add_light(ghost.light, batch);
+        draw(planned.level, planned.cells, first, highlighted, batch);
+        if (!ghost.singular.empty()) add_singular(ghost, du, dv, highlighted, batch);
     }
 
    private:
@@ -88,16 +82,82 @@ class Packer {
                                   [&](const PathEvent& e) { return e.surface == system.stop; }));
     }
 
-    std::int32_t add_bundle(const PlannedGhost& planned, std::size_t geometry,
-                            FlareBatch& batch) const {
-        const auto count = static_cast<std::size_t>((planned.cells / 2 + 1) * (planned.cells + 1));
+    static void add_light(const std::vector<float>& light, FlareBatch& batch) {
+        for (std::size_t k = 0; k < light.size(); k += 4)
+            batch.light.push_back({light[k], light[k + 1], light[k + 2], light[k + 3]});
+    }
+
+    static void add_sheet(SheetRecord sheet, FlareBatch& batch) {
+        const auto nodes = static_cast<std::size_t>((sheet.grid[0] + 1) * (sheet.grid[0] + 1));
+        sheet.grid[1] = static_cast<std::int32_t>(batch.nodes);
+        add_groups(batch.sheets.size(), nodes, batch.sheet_groups);
+        batch.sheets.push_back(sheet);
+        batch.nodes += nodes;
+        batch.cells += static_cast<std::size_t>(sheet.grid[0] * sheet.grid[0]);
+    }
+
+    /// All sheets from `first` on, of so many cells across.
+    static void draw(int level, int cells, std::size_t first, bool highlighted, FlareBatch& batch) {
+        const DrawCommand command{static_cast<std::uint32_t>(6 * cells * cells),
+                                  static_cast<std::uint32_t>(batch.sheets.size() - first), 0,
+                                  static_cast<std::uint32_t>(first)};
+        batch.draws[static_cast<std::size_t>(level)].push_back(command);
+        if (highlighted) batch.highlighted[static_cast<std::size_t>(level)].push_back(command);
+    }
+
+    /// Marks singular cells and their mirror images; returns the first bit.
+    static std::int32_t skip(const GhostDrawing& ghost, FlareBatch& batch) {
+        const int cells = ghost.planned.cells;
+        const std::size_t first = batch.skipped.size();
+        batch.skipped.resize(first + static_cast<std::size_t>((cells * cells + 31) / 32), 0U);
+        auto mark = [&](int cell) {
+            batch.skipped[first + static_cast<std::size_t>(cell / 32)] |= 1U << (cell % 32);
+        };
+        for (const int cell : ghost.singular) {
+            mark(cell);
+            mark(cell / cells * cells + cells - 1 - cell % cells);
+        }
+        return static_cast<std::int32_t>(32 * first);
+    }
+
+    void add_singular(const GhostDrawing& ghost, double du, double dv, bool highlighted,
+                      FlareBatch& batch) const {
+        const PlannedGhost& planned = ghost.planned;
+        const int across = ghost.singular_across, side = across + 1;
+        const auto first_light = static_cast<std::int32_t>(batch.light.size());
+        const std::size_t first = batch.sheets.size();
+        for (std::size_t n = 0; n < ghost.singular.size(); ++n) {
+            const int i = ghost.singular[n] % planned.cells, j = ghost.singular[n] / planned.cells;
+            SheetRecord sheet{};
+            sheet.rays = {add_bundle(planned.path,
+                                     {planned.box.u0_mm + du * i, planned.box.v0_mm + dv * j,
+                                      du / across, dv / across},
+                                     side, side, scene_.main, batch),
+                          0, 0, 1};
+            sheet.grid = {across, 0, across,
+                          first_light + static_cast<std::int32_t>(n) * side * side};
+            sheet.more = {0, stop_crossings(planned.path), 0, -1};
+            sheet.shares[3] =
+                static_cast<float>(du * dv / (across * across) / drawing_.frame.pixel_area_mm2());
+            for (const float mirrored : {0.0F, 1.0F}) {
+                sheet.shares[1] = mirrored;
+                add_sheet(sheet, batch);
+            }
+        }
+        add_light(ghost.singular_light, batch);
+        draw(planned.level, across, first, highlighted, batch);
+    }
+
+    /// A rectangle of rays: u and v of the first and the steps, mm. Returns its first ray.
+    std::int32_t add_bundle(const GhostPath& path, const std::array<double, 4>& box, int columns,
+                            int rows, std::size_t geometry, FlareBatch& batch) const {
+        const auto count = static_cast<std::size_t>(columns * rows);
         const auto first = static_cast<std::int32_t>(batch.rays);
         BundleRecord bundle{};
-        bundle.box = {static_cast<float>(planned.box.u1_mm), static_cast<float>(planned.box.v0_mm),
-                      static_cast<float>(planned.box.v1_mm), lens_.sensor_gap_mm};
-        bundle.grid = {planned.cells, first, static_cast<std::int32_t>(count),
+        for (std::size_t k = 0; k < box.size(); ++k) bundle.box[k] = static_cast<float>(box[k]);
+        bundle.grid = {columns, first, static_cast<std::int32_t>(count),
                        lens_.first_entry[geometry]};
-        const auto& turns = planned.path.reflections;
+        const auto& turns = path.reflections;
         if (turns.size() > 2) refuse("reflections of one ghost", turns.size(), 2);
         const OpticalSystem& system = scene_.system();
         auto turn = [&](std::size_t k) {

@@ -51,6 +51,7 @@ struct FlareBatch {
     std::vector<SheetRecord> sheets;
     std::vector<GroupRecord> bundle_groups, sheet_groups;
     std::vector<Float4> light;
+    std::vector<std::uint32_t> skipped;  ///< a bit a cell of those sheets that leave cells out
     std::array<std::vector<DrawCommand>, picture_levels> draws, highlighted;
     std::size_t rays = 0, nodes = 0, cells = 0;
 };

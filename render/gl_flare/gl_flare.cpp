@@ -19,12 +19,20 @@ double ms_since(Clock::time_point began) {
 }
 
 constexpr int least_gl_version = 43;  // compute shaders, storage blocks, indirect draws
-constexpr int vertex_blocks = 2, compute_blocks = 5;
+constexpr int vertex_blocks = 3, compute_blocks = 5;
 /// A crossing of the stop may be moved so far by the curvature of its map, over the stop's
 /// semi-diameter: beyond this a second difference is a kink.
 constexpr double most_straightened = 0.05;
 
-enum StorageBlock : unsigned { bundles_at, rays_at, groups_at, sheets_at, nodes_at, light_at };
+enum StorageBlock : unsigned {
+    bundles_at,
+    rays_at,
+    groups_at,
+    sheets_at,
+    nodes_at,
+    light_at,
+    skipped_at
+};
 
 /// What others have bound, put back at the end.
 class KeptTarget {
@@ -124,7 +132,7 @@ void GlFlare::number_sheets(std::size_t count) {
     glBindBuffer(GL_ARRAY_BUFFER, 0);
 }
 
-void GlFlare::trace(const FlareBatch& batch, const FlareDrawing& drawing) {
+void GlFlare::trace(const FlareBatch& batch, const FlareDrawing& drawing, float sensor_gap_mm) {
     bundles_.upload(batch.bundles);
     groups_.upload(batch.bundle_groups);
     rays_.reserve(batch.rays * ray_bytes);
@@ -137,6 +145,7 @@ void GlFlare::trace(const FlareBatch& batch, const FlareDrawing& drawing) {
     set_vec3(trace_, "direction", drawing.beam.direction);
     set_vec3(trace_, "e1", drawing.beam.e1);
     set_vec3(trace_, "e2", drawing.beam.e2);
+    glUniform1f(trace_.uniform("sensor_gap"), sensor_gap_mm);
     dispatch(batch.bundle_groups.size());
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
@@ -145,6 +154,7 @@ void GlFlare::place(const FlareBatch& batch, const FlareDrawing& drawing) {
     sheets_.upload(batch.sheets);
     groups_.upload(batch.sheet_groups);
     light_.upload(batch.light);
+    skipped_.upload(batch.skipped);
     nodes_.reserve(batch.nodes * node_bytes);
     rays_.bind_storage(rays_at);
     groups_.bind_storage(groups_at);
@@ -172,6 +182,7 @@ void GlFlare::draw(const std::array<std::vector<DrawCommand>, picture_levels>& d
     commands_.upload(all);
     sheets_.bind_storage(sheets_at);
     nodes_.bind_storage(nodes_at);
+    skipped_.bind_storage(skipped_at);
     glUseProgram(draw_.name());
     const StopMask& mask = drawing.stop_mask;
     glUniform4f(draw_.uniform("stop_mask"), static_cast<float>(mask.semi_diameter_mm),
@@ -227,7 +238,7 @@ std::optional<GlFlarePicture> GlFlare::draw_to_texture(const FlareScene& scene,
     for (const FlareBatch& batch : batches) {
         if (stop.stop_requested()) break;
         number_sheets(batch.sheets.size());
-        trace(batch, *drawing);
+        trace(batch, *drawing, lens.sensor_gap_mm);
         place(batch, *drawing);
         draw(batch.draws, *drawing, picture_);
         if (highlights) draw(batch.highlighted, *drawing, highlight_);

@@ -54,12 +54,12 @@ class GlFlare {
    private:
     GlProgram trace_, place_, draw_, compose_;
     GlVertexArray sheets_array_, nothing_;
-    GlBuffer lens_, aspheres_, bundles_, rays_, groups_, sheets_, nodes_, light_, commands_,
-        sheet_numbers_;
+    GlBuffer lens_, aspheres_, bundles_, rays_, groups_, sheets_, nodes_, light_, skipped_,
+        commands_, sheet_numbers_;
     std::size_t numbered_sheets_ = 0;
     LevelTargets picture_, highlight_;
 
-    void trace(const FlareBatch& batch, const FlareDrawing& drawing);
+    void trace(const FlareBatch& batch, const FlareDrawing& drawing, float sensor_gap_mm);
     void place(const FlareBatch& batch, const FlareDrawing& drawing);
     void draw(const std::array<std::vector<DrawCommand>, picture_levels>& draws,
               const FlareDrawing& drawing, const LevelTargets& targets);

@@ -11,6 +11,7 @@ struct Node {
 };
 layout(std430, binding = 3) readonly buffer Sheets { Sheet sheets[]; };
 layout(std430, binding = 4) readonly buffer Nodes { Node nodes[]; };
+layout(std430, binding = 6) readonly buffer Skipped { uint skipped[]; };  // a bit a cell
 
 layout(location = 0) in uint sheet_index;  // one an instance
 uniform vec4 target;                       // scale and margin of the level; its size in pixels
@@ -55,6 +56,11 @@ void main() {
     crossings = sheet.more.y;
     int cells = sheet.grid.x, side = cells + 1;
     int cell = gl_VertexID / 6, half_of = (gl_VertexID / 3) % 2, own = gl_VertexID % 3;
+    int bit = sheet.more.w + cell;
+    if (sheet.more.w >= 0 && (skipped[bit / 32] >> (bit % 32) & 1u) == 1u) {
+        drop();
+        return;
+    }
     int i = cell % cells, j = cell / cells;
     int a = sheet.grid.y + j * side + i;
     // Diagonals mirror about the middle, so that a symmetric ghost is drawn symmetrically.

@@ -10,7 +10,11 @@ struct Sheet {
     ivec4 grid;   // cells across, first node, cells of the light's grid, its first node
     ivec4 rays;   // first ray at each geometry wavelength; how many of them there are
     vec4 shares;  // of these in the sheet's positions; cell area over a pixel's
-    ivec4 more;   // which one is the main wavelength, crossings of the stop
+    // Which one is the main wavelength, and crossings of the stop; the column of nodes that the first
+    // column of rays is for, those before being mirror images of those behind; the first bit of
+    // cells that are skipped, or -1. A sheet with no column mirrored and 1 in shares.y is a mirror
+    // image as a whole.
+    ivec4 more;
 };
 struct Node {
     vec4 at;      // in full-size pixels; margin; 1 - r_rel
@@ -31,8 +35,8 @@ uniform float most_stop_mm;  // that a curvature may move a crossing of the stop
 Sheet sheet;
 
 Ray ray_at(int i, int j) {
-    int cells = sheet.grid.x, across = cells / 2 + 1;
-    int k = j * across + abs(i - cells / 2);
+    int middle = sheet.more.z, across = sheet.grid.x - middle + 1;
+    int k = j * across + abs(i - middle);
     Ray main_ray = rays[sheet.rays[sheet.more.x] + k];
     if (sheet.rays.w > 1) {
         // Where a colour fails nothing can be interpolated: the main one stands for it.
@@ -50,7 +54,7 @@ Ray ray_at(int i, int j) {
             main_ray = mixed;
         }
     }
-    if (i < cells / 2) {
+    if (i < middle || (middle == 0 && sheet.shares.y == 1.0)) {
         main_ray.at.x = -main_ray.at.x;
         main_ray.stop01.xz = -main_ray.stop01.xz;
         main_ray.stop2.x = -main_ray.stop2.x;
@@ -109,9 +113,9 @@ void main() {
     straighten(ivec2(i, clamp(j, 1, cells - 1)), ivec2(0, 1), ray);
 
     // Light from its own grid.
-    int from = sheet.grid.z, half_side = from / 2 + 1;
+    int from = sheet.grid.z, middle = sheet.more.z > 0 ? from / 2 : 0, half_side = from - middle + 1;
     float y = float(j * from) / float(cells);
-    float x = abs(float(i * from) / float(cells) - 0.5 * float(from));
+    float x = abs(float(i * from) / float(cells) - float(middle));
     int i0 = min(int(x), half_side - 2), j0 = min(int(y), from - 1);
     int first = sheet.grid.w + j0 * half_side + i0;
     vec4 light = mix(mix(lights[first], lights[first + 1], x - float(i0)),

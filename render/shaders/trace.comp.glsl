@@ -9,8 +9,8 @@ layout(std140, binding = 0) uniform Lens { vec4 surface[1024]; };
 layout(std140, binding = 1) uniform Aspheres { vec4 term[1024]; };
 
 struct Bundle {
-    vec4 box;    // u1, v0, v1 in mm; last vertex z minus the sensor's
-    ivec4 grid;  // cells across, first ray, rays, first entry of the lens
+    vec4 box;    // u and v of the first ray, and the steps between rays, mm
+    ivec4 grid;  // rays a row, first ray, rays, first entry of the lens
     ivec4 path;  // the two surfaces that reflect, the stop, count of surfaces
 };
 struct Ray {
@@ -24,6 +24,7 @@ layout(std430, binding = 1) writeonly buffer Rays { Ray rays[]; };
 layout(std430, binding = 2) readonly buffer Groups { uvec2 groups[]; };
 
 uniform vec3 direction, e1, e2;  // of the beam
+uniform float sensor_gap;        // last vertex z minus the sensor's, mm
 
 float margin;
 vec3 p, d;
@@ -52,9 +53,8 @@ void main() {
     Bundle bundle = bundles[group.x];
     int k = int(group.y + gl_LocalInvocationID.x);
     if (k >= bundle.grid.z) return;
-    int cells = bundle.grid.x, across = cells / 2 + 1;
-    float u = bundle.box.x * float(k % across) / float(across - 1);
-    float v = mix(bundle.box.y, bundle.box.z, float(k / across) / float(cells));
+    float u = bundle.box.x + bundle.box.z * float(k % bundle.grid.x);
+    float v = bundle.box.y + bundle.box.w * float(k / bundle.grid.x);
 
     Ray ray = Ray(vec4(0), vec4(0), vec4(0));
     p = u * e1 + v * e2;
@@ -123,7 +123,7 @@ void main() {
         d *= 1.5 - 0.5 * dot(d, d);
     }
     narrow(d.z);
-    vec2 landed = p.xy - (p.z + bundle.box.w) / d.z * d.xy;
+    vec2 landed = p.xy - (p.z + sensor_gap) / d.z * d.xy;
     float r_rel = sqrt(r2_rel);
     float check = landed.x + landed.y + r_rel;
     // What went wild must not reach any sum.
