@@ -194,7 +194,7 @@ void GlFlare::draw(const std::array<std::vector<DrawCommand>, picture_levels>& d
     for (int level = 0; level < picture_levels; ++level) {
         const auto& own = draws[static_cast<std::size_t>(level)];
         if (own.empty()) continue;
-        const RasterSize size = level_size(drawing.frame, level);
+        const RasterSize size = targets.drawn_size(level);
         targets.bind(level);
         glUniform4f(draw_.uniform("target"), static_cast<float>(size.scale),
                     static_cast<float>(size.margin_px), static_cast<float>(size.width_px),

@@ -14,15 +14,17 @@ class LevelTargets {
    public:
     /// Black pictures for a frame. Throws Error.
     void begin(const PixelFrame& frame);
+    /// Where a level is drawn.
+    RasterSize drawn_size(int level) const;
     /// Draws go to this level from now on, and add.
     void bind(int level) const;
     /// Adds the levels up, from the coarsest of those that were drawn to.
     void compose(const GlProgram& program, const GlVertexArray& vertices, int coarsest) const;
     const GlFloatTarget& full() const { return levels_[0]; }
-    const GlFloatTarget& level(int level) const { return levels_[static_cast<std::size_t>(level)]; }
 
    private:
     PixelFrame frame_;
+    GlFloatTarget fine_;
     std::array<GlFloatTarget, picture_levels> levels_;
 };
 
