@@ -5,6 +5,7 @@
 
 #include "core/flare/film_tables_kernel.h"
 #include "core/instruction_set.h"
+#include "core/optics/hullin_2011.h"
 #include "core/parallel.h"
 
 namespace ghostlight {
@@ -18,7 +19,8 @@ void curve(const FilmCurveView& view) { GHOSTLIGHT_DISPATCH(film_curve, view); }
 
 }  // namespace
 
-FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threads)
+FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threads,
+                       CoatingModel model)
     : stride_((systems.size() + film_padding - 1) / film_padding * film_padding),
       surfaces_(systems.front().surfaces.size()) {
     const std::size_t table_size = static_cast<std::size_t>(nodes) * stride_;
@@ -54,6 +56,14 @@ FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threa
                    .cosines = cosines.data(),
                    .reflectance = r.data(),
                    .transmittance = t.data()});
+            if (model == CoatingModel::hullin_2011) {
+                std::ranges::fill(t, 1.0F);
+                for (std::size_t i = 0; i < padded_nodes && film.layers.size() == 1; ++i)
+                    r[i] = static_cast<float>(
+                        hullin_2011_reflectance(static_cast<double>(cosines[i]), film.wavelength_nm,
+                                                film.layers.front().thickness_nm, film.n_in,
+                                                film.layers.front().n, film.n_out));
+            }
             for (const bool reflects : {false, true}) {
                 float* to = values_.data() + (table(surface, forward, reflects) - values_.data());
                 for (std::size_t i = 0; i < static_cast<std::size_t>(nodes); ++i)

@@ -63,6 +63,23 @@ FirstOrder first_order(const OpticalSystem& system) {
     return order;
 }
 
+std::vector<ParaxialMeeting> paraxial_meetings(const OpticalSystem& system, const GhostPath& path) {
+    std::vector<ParaxialMeeting> meetings;
+    RayMatrix whole;
+    double z = 0.0;
+    for (const PathEvent& event : events(path, system.surfaces.size())) {
+        const SurfaceAt& surface = system.surfaces[event.surface];
+        whole = gap(std::abs(surface.vertex_z_mm - z)) * whole;
+        z = surface.vertex_z_mm;
+        const bool at_stop = event.surface == system.stop;
+        meetings.push_back({whole,
+                            at_stop ? system.stop_mask.semi_diameter_mm : surface.semi_diameter_mm,
+                            at_stop});
+        whole = interaction(surface, event) * whole;
+    }
+    return meetings;
+}
+
 ParaxialGhost paraxial_ghost(const OpticalSystem& system, const GhostPath& path) {
     ParaxialGhost ghost;
     RayMatrix whole, from_stop, to_last_stop;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "core/ghosts/ghost_path.h"
 #include "core/optics/optical_system.h"
@@ -45,6 +46,14 @@ struct ParaxialGhost {
     double entrance_semi_diameter_mm = 0.0;  ///< of the collimated beam that passes everywhere
     int stop_crossings = 0;
 };
+/// One meeting of a path with a surface, to first order.
+struct ParaxialMeeting {
+    RayMatrix to_here;  ///< first vertex → this surface's vertex plane
+    double clear_radius_mm = 0.0;
+    bool at_stop = false;
+};
+std::vector<ParaxialMeeting> paraxial_meetings(const OpticalSystem& system, const GhostPath& path);
+
 ParaxialGhost paraxial_ghost(const OpticalSystem& system, const GhostPath& path);
 
 }  // namespace ghostlight
