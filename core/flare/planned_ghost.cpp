@@ -314,6 +314,7 @@ void GhostPlanner::look(const MirrorGrid& first, const MeshNodes& nodes, ProbedG
     add_grid(nodes, frame_, mesh);
     const double contrast = mesh.edge_contrast * pixel_mm2;
     FirstErrors& errors = ghost.errors;
+    errors.contrast_mm2 = contrast;
     errors.cells = first.cells;
     errors.area_px2 = mesh.area_px2;
     // The error of a bilinear map falls fourfold on doubling the grid.
@@ -345,17 +346,25 @@ void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
     PlannedGhost& planned = ghost.planned;
     const FirstErrors& first = ghost.errors;
     const double flux = std::max(planned.flux_mm2, 1e-300);
-    auto allowed = [&](double share) { return unsaturated(share * planned.allowance_mm2, flux); };
+    // A ghost of full size leaves its share for blurring to the others.
+    const bool full_size =
+        saturated(blur_px(1) * first.contrast_mm2, flux) > level_share * planned.allowance_mm2;
+    const double spread =
+        full_size ? planned.allowance_mm2 / (1.0 - level_share) : planned.allowance_mm2;
+    auto allowed = [&](double share) { return unsaturated(share * spread, flux); };
 
     // Cells below half a pixel show nothing more.
     const int finest = std::clamp(static_cast<int>(2.0 * std::sqrt(first.area_px2)),
                                   2 * first.cells, finest_cells);
     int cells = std::min(finest, cells_for(first.cells, first.grid_mm2, allowed(grid_share)));
     // Bands overlap by hats, so that what is left of merging falls fourfold on doubling them.
-    const int bands = std::min(most_bands, cells_for(1, first.merging_mm2, allowed(band_share)));
+    const int bands = std::clamp(
+        static_cast<int>(std::ceil(
+            std::sqrt(std::min(first.merging_mm2 / std::max(allowed(band_share), 1e-300), 1e6)))),
+        1, most_bands);
     // Weights come from the probe where they are smooth, else they are traced on the grid itself;
     // where rays begin to fail or reflect totally, on a grid for each cell.
-    const double weight_allowed = weight_share * planned.allowance_mm2;
+    const double weight_allowed = weight_share * spread;
     const bool rough = first.weight_mm2 > weight_allowed;
     if (rough)
         cells = std::max(cells, std::min(most_rough_cells,

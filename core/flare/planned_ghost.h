@@ -12,11 +12,12 @@ namespace ghostlight {
 
 /// What a plain drawing of a ghost's first grid would get wrong, mm² over E0, before saturation.
 struct FirstErrors {
-    int cells = 0;             ///< of that grid, across
-    double area_px2 = 0.0;     ///< of the ghost's sheets on the sensor, near the frame
-    double grid_mm2 = 0.0;     ///< the map's bend
-    double merging_mm2 = 0.0;  ///< all colours in one band
-    double weight_mm2 = 0.0;   ///< interpolating the light between the probe's rays
+    int cells = 0;              ///< of that grid, across
+    double area_px2 = 0.0;      ///< of the ghost's sheets on the sensor, near the frame
+    double contrast_mm2 = 0.0;  ///< per pixel of blur
+    double grid_mm2 = 0.0;      ///< the map's bend
+    double merging_mm2 = 0.0;   ///< all colours in one band
+    double weight_mm2 = 0.0;    ///< interpolating the light between the probe's rays
 };
 
 /// A ghost after its first look.
