@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 
 #include "app/cli/commands.h"
@@ -18,7 +19,7 @@ struct GhostsOptions {
     LensOptions lens;
     LightOptions light;
     SpectrumOptions spectrum;
-    std::string top, tolerance = "0.01";
+    std::string top, tolerance = "0.01", columns, four;
     bool paraxial = false;
     OutputOptions output;
 };
@@ -29,20 +30,30 @@ std::vector<const GhostRow*> rows_of(const GhostTable& table) {
     return rows;
 }
 
-void append_paraxial(Table& table, const GhostTable& ghosts, const OpticalSystem& system) {
-    table.columns.insert(table.columns.end(),
-                         {"a", "b", "c", "d", "focus_from_sensor_mm", "magnification",
-                          "paraxial_diameter_mm", "fresnel_number", "stop_crossings"});
-    const auto rows = rows_of(ghosts);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        // Paths end travelling towards the sensor, so dy/ds is dy/dz at both ends.
-        const ParaxialGhost first = paraxial_ghost(system, rows[i]->path);
-        const RayMatrix& matrix = first.to_sensor;
-        table.rows[i].insert(table.rows[i].end(),
-                             {matrix.a, matrix.b, matrix.c, matrix.d, first.focus_from_sensor_mm,
-                              first.magnification, first.diameter_mm, first.fresnel_number,
-                              static_cast<std::int64_t>(first.stop_crossings)});
-    }
+/// The first-order columns at the end of `all`, behind the basic ones.
+Table with_paraxial(const GhostTable& ghosts) {
+    constexpr std::array names = {"a",
+                                  "b",
+                                  "c",
+                                  "d",
+                                  "focus_from_sensor_mm",
+                                  "magnification",
+                                  "paraxial_diameter_mm",
+                                  "fresnel_number",
+                                  "stop_crossings"};
+    std::vector<std::string> wanted = ghost_rows(ghosts, GhostColumns::basic).columns;
+    wanted.insert(wanted.end(), names.begin(), names.end());
+    return select_columns(ghost_rows(ghosts, GhostColumns::all), wanted);
+}
+
+Table table_of(const GhostsOptions& options, const GhostTable& ghosts) {
+    if (options.columns.empty() || options.columns == "basic")
+        return options.paraxial ? with_paraxial(ghosts) : ghost_rows(ghosts);
+    const Table all = ghost_rows(ghosts, GhostColumns::all);
+    if (options.columns == "all") return all;
+    std::vector<std::string> names;
+    for (const std::string_view column : split(options.columns, ',')) names.emplace_back(column);
+    return read_option("--columns", [&] { return select_columns(all, names); });
 }
 
 Notes unconverged(const GhostTable& table) {
@@ -64,6 +75,9 @@ void run(const GhostsOptions& options) {
     const long top = options.top.empty() ? -1
                                          : integer_value("--top", options.top,
                                                          "a whole number above 0", 1, 1'000'000);
+    if (!options.four.empty())
+        request.four_reflections = static_cast<std::size_t>(
+            integer_value("--four", options.four, "a whole number from 0 to 100000", 0, 100'000));
     LoadedLens loaded = load_lens(options.lens);
     GhostTable ghosts = [&] {
         ProgressLine progress("tracing ghosts");
@@ -86,12 +100,10 @@ void run(const GhostsOptions& options) {
                                  lens_heading(loaded), name(request.spectrum),
                                  request.light.field_deg, request.light.azimuth_deg,
                                  loaded.lens.sensor.width_mm, loaded.lens.sensor.height_mm);
-    report.table = ghost_rows(ghosts);
-    if (options.paraxial) {
-        const double wavelength_nm = reference_wavelength_nm(request.spectrum);
-        report.request.emplace_back("paraxial_wavelength_nm", json_value(wavelength_nm));
-        append_paraxial(report.table, ghosts, compile(loaded.lens, wavelength_nm));
-    }
+    report.table = table_of(options, ghosts);
+    if (options.paraxial || !options.columns.empty())
+        report.request.emplace_back("paraxial_wavelength_nm",
+                                    json_value(reference_wavelength_nm(request.spectrum)));
     write_report(report, options.output);
     print_notes(loaded.notes, Note::Severity::warning);
     print_notes(unconverged(ghosts), Note::Severity::warning);
@@ -113,6 +125,11 @@ void add_ghosts(CLI::App& program) {
         ->capture_default_str();
     command->add_flag("--paraxial", options->paraxial,
                       "add first-order data; with a spectrum at 587.5618 nm");
+    add_text(*command, "--columns", options->columns, "basic|all|NAME,...",
+             "which columns; all of them and what they mean: docs/command-line.md");
+    add_text(*command, "--four", options->four, "N",
+             "trace also the N ghosts of four reflections that can be the strongest; the\n"
+             "others are bounded together in the last row");
     add_output(*command, options->output);
     command->footer(R"(Examples:
   ghostlight-cli ghosts tessar_brendel_100_f2.8 --field 15 --top 10

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <stop_token>
 #include <unordered_map>
 #include <vector>
@@ -13,13 +15,28 @@
 
 namespace ghostlight {
 
-/// Integrals over a path's bundle at one wavelength, or sums of them over a spectrum. Positions
-/// and reflectances are weighted by flux: divide by `flux`.
+/// A rectangle on the sensor plane, mm; empty until a point is put in.
+struct SensorBox {
+    double x0_mm = std::numeric_limits<double>::infinity(), x1_mm = -x0_mm;
+    double y0_mm = std::numeric_limits<double>::infinity(), y1_mm = -y0_mm;
+    bool empty() const { return x0_mm > x1_mm; }
+    void add(double x_mm, double y_mm);
+    void add(const SensorBox& other);
+};
+
+/// Integrals over a path's bundle at one wavelength, or sums of them over a spectrum. Positions,
+/// reflectances and angles are weighted by flux: divide by `flux`.
 struct FluxSums {
     double flux = 0.0;       ///< mm²
     double on_sensor = 0.0;  ///< mm² of it inside the sensor's rectangle
     double x = 0.0, y = 0.0, r2 = 0.0;
-    double reflectance[2] = {0.0, 0.0};
+    std::array<double, max_reflections> reflectance{};
+    std::array<double, max_reflections> incidence_rad{};
+    double area_mm2 = 0.0;        ///< on the sensor plane, each of a folded ghost's sheets
+    double pupil_area_mm2 = 0.0;  ///< of the beam's part that passes, across the beam
+    // Not sums, but largest values: scaling leaves them.
+    std::array<double, max_reflections> largest_incidence_rad{};
+    SensorBox box;
     FluxSums& operator+=(const FluxSums& other);
 };
 FluxSums operator*(double scale, FluxSums sums);
@@ -70,8 +87,11 @@ class PathQuadrature {
     GhostPath ghost_;
     TracePath<double> path_;
     BeamFrame frame_;
+    std::vector<double> inverse_eta2_;  ///< (n_out/n_in)² at each reflection
 
     void split(PathFlux& flux, double above_mm2) const;
+    FluxSums sums_of(const PathFlux& flux) const;
+    double incidence_rad(const PathFlux& flux, std::size_t reflection, std::size_t node) const;
     void trace_lattice(PathFlux& flux, const std::vector<std::uint64_t>& keys) const;
 };
 

@@ -69,7 +69,7 @@ ParaxialGhost paraxial_ghost(const OpticalSystem& system, const GhostPath& path)
     double limit = infinity;
     double z = 0.0;
     for (const PathEvent& event : events(path, system.surfaces.size())) {
-        const SurfaceAt& surface = system.surfaces[event.surface];
+        const SurfaceAt& surface = surface_at(system, event.surface);
         const RayMatrix leg = gap(std::abs(surface.vertex_z_mm - z));
         z = surface.vertex_z_mm;
         whole = leg * whole;
@@ -93,6 +93,11 @@ ParaxialGhost paraxial_ghost(const OpticalSystem& system, const GhostPath& path)
     ghost.magnification = ratio(ghost.to_sensor.a, ghost.to_stop.a);
     ghost.entrance_semi_diameter_mm = limit;
     ghost.diameter_mm = 2.0 * std::abs(ghost.to_sensor.a) * limit;
+    const RayMatrix& after = ghost.stop_to_sensor;
+    ghost.pupil_from_sensor_mm = ratio(-after.b, after.d);
+    ghost.pupil_radius_mm =
+        ratio(system.stop_mask.semi_diameter_mm * std::abs(after.a * after.d - after.b * after.c),
+              std::abs(after.d));
     // M/B = A/B + κ with κ = u/y at the stop; λ is that of the stop's medium, as B is not reduced.
     const double a = system.stop_mask.semi_diameter_mm;
     const double wavelength_mm =

@@ -43,6 +43,8 @@ struct ParaxialGhost {
     double diameter_mm = 0.0;     ///< on the sensor, all surfaces limiting
     double fresnel_number = 0.0;  ///< a²|M|/(λ|B|) from the last stop crossing on (Collins)
     double entrance_semi_diameter_mm = 0.0;  ///< of the collimated beam that passes everywhere
+    double pupil_from_sensor_mm = 0.0;  ///< where the path's rest images the stop, last crossing
+    double pupil_radius_mm = 0.0;       ///< of that image
     int stop_crossings = 0;
 };
 ParaxialGhost paraxial_ghost(const OpticalSystem& system, const GhostPath& path);

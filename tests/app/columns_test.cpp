@@ -38,6 +38,28 @@ const Names paraxial_names = {"a",
                               "fresnel_number",
                               "stop_crossings"};
 
+const Names detail_names = {"reflections",
+                            "media_1",
+                            "media_2",
+                            "incidence_1_deg",
+                            "incidence_2_deg",
+                            "largest_incidence_1_deg",
+                            "largest_incidence_2_deg",
+                            "area_mm2",
+                            "pupil_area_mm2",
+                            "x_min_mm",
+                            "x_max_mm",
+                            "y_min_mm",
+                            "y_max_mm",
+                            "peak_per_sun_image",
+                            "vignetting",
+                            "cie_x",
+                            "cie_y",
+                            "srgb",
+                            "converged",
+                            "ghost_pupil_from_sensor_mm",
+                            "ghost_pupil_radius_mm"};
+
 const std::string two_rays = "px_mm,py_mm\n0,0\n17,17\n";
 
 struct Case {
@@ -52,6 +74,11 @@ std::vector<Case> cases() {
     const Names ghosts = {"ghosts", tessar(), "--field", "0", "--top", "2"};
     Names paraxial = ghosts;
     paraxial.emplace_back("--paraxial");
+    Names all = ghosts;
+    all.insert(all.end(), {"--columns", "all"});
+    Names all_names = ghost_names;
+    all_names.insert(all_names.end(), detail_names.begin(), detail_names.end());
+    all_names.insert(all_names.end(), paraxial_names.begin(), paraxial_names.end());
     return {
         {{"info", tessar()}, "", info_names},
         {{"trace", tessar(), "--ghost", "5-3", "--field", "15", "--rays", "-"},
@@ -62,6 +89,7 @@ std::vector<Case> cases() {
          coating_names},
         {ghosts, "", ghost_names},
         {paraxial, "", with_paraxial},
+        {all, "", all_names},
     };
 }
 
