@@ -307,6 +307,22 @@ void PathQuadrature::refine(PathFlux& flux, double share, double floor_mm2,
     flux.sums = sums_of(flux);
 }
 
+std::vector<BeamPart> PathQuadrature::parts(const PathFlux& flux) const {
+    std::vector<BeamPart> parts;
+    for (const FluxCell& cell : flux.cells) {
+        if (cell.flux_mm2 == 0.0) continue;
+        visit_pieces(flux, cell, [&](const Piece& piece, const TriangleNodes&) {
+            BeamPart part{0.0, 0.0, pupil_area_mm2(piece)};
+            for (int k = 0; k < piece.count; ++k) {
+                part.u_mm += piece.corners[k].u_mm / piece.count;
+                part.v_mm += piece.corners[k].v_mm / piece.count;
+            }
+            parts.push_back(part);
+        });
+    }
+    return parts;
+}
+
 GhostMesh PathQuadrature::mesh(PathFlux& flux, const PixelFrame& pixels, int cells,
                                double gain) const {
     if (flux.cells.empty()) return {};

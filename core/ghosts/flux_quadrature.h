@@ -61,6 +61,11 @@ struct PathFlux {
     std::vector<FluxCell> cells;
 };
 
+/// A part of the beam that passes: its middle on the plane across the beam, and its area.
+struct BeamPart {
+    double u_mm = 0.0, v_mm = 0.0, area_mm2 = 0.0;
+};
+
 /// The flux of one path by adaptive quadrature over the pupil: weight and clearances are linear on
 /// two triangles per cell, and the cells whose flux changes most when split are split further, so
 /// that edges, the onset of total reflection and thin crescents get the rays. The polarisation
@@ -78,6 +83,9 @@ class PathQuadrature {
     /// Splits cells until the error is below max(share × flux, floor), or rays run out; then works
     /// out the moments.
     void refine(PathFlux& flux, double share, double floor_mm2, std::stop_token stop) const;
+
+    /// The parts of the beam that pass, as the cells stand.
+    std::vector<BeamPart> parts(const PathFlux& flux) const;
 
     /// The path's irradiance for a raster, on a uniform grid, scaled to the flux found.
     GhostMesh mesh(PathFlux& flux, const PixelFrame& pixels, int cells, double gain) const;

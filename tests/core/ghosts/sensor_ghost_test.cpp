@@ -109,7 +109,7 @@ TEST(SensorGhost, BundlesFollowSingleRays) {
     const GhostPath ghost = parse_ghost("sensor-5", system);
     Bundle<double> rays;
     Random random(5);
-    for (int k = 0; k < 100; ++k) {
+    for (int k = 0; k < 300; ++k) {
         rays.u_mm.push_back(random.between(-18.0, 18.0));
         rays.v_mm.push_back(random.between(-18.0, 18.0));
     }
