@@ -212,7 +212,7 @@ bool FileActions::export_png(const std::filesystem::path& file) {
         if (!image) {
             throw Error("there is no flare yet: it is still being computed");
         }
-        write_png(*image, shown_.exposure_ev(), file);
+        write_display(*image, shown_.exposure_ev(), file);
     });
 }
 

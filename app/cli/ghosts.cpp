@@ -42,8 +42,11 @@ Plan plan_of(const GhostsOptions& options) {
             integer_value("--four", options.four, "a whole number from 0 to 100000", 0, 100'000));
     if (!options.by.empty() && options.by != "surface" && options.by != "element")
         throw bad_value("--by", options.by, "surface or element");
-    // Sums and sensitivities say nothing of peaks, which cost the most.
-    plan.request.peaks = options.by.empty() && !options.sensitivities;
+    // Peaks cost the most: only where they are shown.
+    const std::string& shown = options.wide.empty() ? options.columns : options.wide;
+    const bool all = shown.empty() || shown == "basic" || shown == "all";
+    plan.request.peaks = options.by.empty() && !options.sensitivities &&
+                         (all || shown.find("peak") != std::string::npos);
     return plan;
 }
 

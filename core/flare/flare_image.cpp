@@ -91,7 +91,8 @@ std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequ
     const auto colors = sample_colors(request.spectrum, samples);
     std::vector<OpticalSystem> systems;
     for (const SpectralSample& s : samples) systems.push_back(compile(lens, s.wavelength_nm));
-    const std::vector<GhostPath> ghosts = two_reflection_ghosts(systems.front());
+    const std::vector<GhostPath> ghosts =
+        request.only.empty() ? two_reflection_ghosts(systems.front()) : request.only;
     const BeamFrame frame = beam_frame(request.light);
     const PixelFrame pixels = pixel_frame(systems.front().sensor_width_mm,
                                           systems.front().sensor_height_mm, request.width_px);

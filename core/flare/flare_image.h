@@ -20,6 +20,7 @@ struct FlareRequest {
     double bend_px = 0.2;      ///< each ghost's grid is as fine as keeps its map bilinear to this
     int grid = 0;              ///< cells across every ghost's pupil; 0 = by bend_px
     int spectral_samples = 5;  ///< used when the light is not of one wavelength
+    std::vector<GhostPath> only;         ///< draw these paths alone; empty = all ghosts
     std::vector<GhostPath> highlighted;  ///< these ghosts also go into FlareImage::highlight
     unsigned threads = 0;
 };
