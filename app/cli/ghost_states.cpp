@@ -21,19 +21,6 @@ std::vector<std::string> texts_of(std::string_view option, const std::string& te
     return texts;
 }
 
-std::vector<std::string> configurations_of(const LensOptions& options) {
-    if (options.config.empty()) return {""};
-    LensOptions listed = options;
-    listed.config.clear();
-    listed.f_number.clear();
-    const std::vector<std::string> known = load_lens(listed).configurations;
-    if (std::ranges::find(known, options.config) != known.end()) return {options.config};
-    if (options.config == "all") return known.empty() ? std::vector<std::string>{""} : known;
-    std::vector<std::string> names;
-    for (const std::string_view name : split(options.config, ',')) names.emplace_back(name);
-    return names;
-}
-
 std::size_t column_of(const Table& table, const std::string& name) {
     const auto at = std::ranges::find(table.columns, name);
     return static_cast<std::size_t>(at - table.columns.begin());

@@ -293,6 +293,19 @@ LoadedLens load_lens(const LensOptions& options) {
     return loaded;
 }
 
+std::vector<std::string> configurations_of(const LensOptions& options) {
+    if (options.config.empty()) return {""};
+    LensOptions listed = options;
+    listed.config.clear();
+    listed.f_number.clear();
+    const std::vector<std::string> known = load_lens(listed).configurations;
+    if (std::ranges::find(known, options.config) != known.end()) return {options.config};
+    if (options.config == "all") return known.empty() ? std::vector<std::string>{""} : known;
+    std::vector<std::string> names;
+    for (const std::string_view name : split(options.config, ',')) names.emplace_back(name);
+    return names;
+}
+
 CLI::Option* add_light(CLI::App& command, LightOptions& options) {
     auto* field = add_text(command, "--field", options.field, "DEG",
                            "angle of the light from the axis, degrees, -90 to 90");

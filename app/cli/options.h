@@ -83,6 +83,10 @@ struct LoadedLens {
 };
 LoadedLens load_lens(const LensOptions& options);
 
+/// What `--config` names: one configuration, a comma list of them, or "all"; one empty text for the
+/// lens as listed. Names are checked when the lens is loaded.
+std::vector<std::string> configurations_of(const LensOptions& options);
+
 /// Where the light comes from.
 struct LightOptions {
     std::string field, azimuth = "90";

@@ -58,6 +58,17 @@ FirstOrder first_order(const OpticalSystem& system) {
     order.exit_pupil_radius_mm =
         ratio(system.stop_mask.semi_diameter_mm * std::abs(determinant), std::abs(from_stop.d));
     order.f_number = ratio(std::abs(order.efl_mm), 2.0 * order.entrance_pupil_radius_mm);
+    // Object space is air; f' belongs to the last medium, the front focal length is f'/n'.
+    const double front_focal_mm = order.efl_mm / system.surfaces.back().n_after;
+    order.front_principal_z_mm = order.ffd_mm + front_focal_mm;
+    order.rear_principal_z_mm = order.bfd_mm - order.efl_mm;
+    order.front_nodal_z_mm = order.ffd_mm + order.efl_mm;
+    order.rear_nodal_z_mm = order.bfd_mm - front_focal_mm;
+    order.pupil_magnification = ratio(to_stop.a * determinant, from_stop.d);
+    for (const SurfaceAt& surface : system.surfaces)
+        order.petzval_per_mm += surface.curvature_per_mm * (surface.n_after - surface.n_before) /
+                                (surface.n_before * surface.n_after);
+    order.total_track_mm = system.sensor_z_mm;
     order.sensor_distance_mm = system.sensor_z_mm - system.surfaces.back().vertex_z_mm;
     order.paraxial_defocus_mm = order.sensor_distance_mm - order.bfd_mm;
     return order;

@@ -26,8 +26,15 @@ struct FirstOrder {
     double entrance_pupil_radius_mm = 0.0;
     double exit_pupil_z_mm = 0.0;  ///< from the last vertex
     double exit_pupil_radius_mm = 0.0;
-    double sensor_distance_mm = 0.0;   ///< last vertex to the sensor
-    double paraxial_defocus_mm = 0.0;  ///< sensor − focus
+    double sensor_distance_mm = 0.0;    ///< last vertex to the sensor
+    double paraxial_defocus_mm = 0.0;   ///< sensor − focus
+    double front_principal_z_mm = 0.0;  ///< from the first vertex
+    double rear_principal_z_mm = 0.0;   ///< from the last vertex
+    double front_nodal_z_mm = 0.0;      ///< from the first vertex
+    double rear_nodal_z_mm = 0.0;       ///< from the last vertex
+    double pupil_magnification = 0.0;   ///< exit over entrance pupil, signed
+    double petzval_per_mm = 0.0;        ///< Σ c (n' − n)/(n n'): minus the image's curvature
+    double total_track_mm = 0.0;        ///< first vertex to sensor
 };
 FirstOrder first_order(const OpticalSystem& system);
 
