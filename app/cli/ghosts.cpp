@@ -6,6 +6,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/ghost_reports.h"
+#include "app/cli/html_report.h"
 #include "app/cli/output.h"
 #include "app/cli/report.h"
 #include "core/ghosts/ghost_table.h"
@@ -18,10 +19,21 @@ struct GhostsOptions {
     LensOptions lens;
     LightOptions light;
     SpectrumOptions spectrum;
-    std::string top, tolerance = "0.01", columns, four, by, wide;
+    std::string top, tolerance = "0.01", columns, four, by, wide, html;
+    std::string command;  ///< as typed, for the report
     bool paraxial = false, tidy = false, sensitivities = false;
     OutputOptions output;
 };
+
+/// Quoted for a shell where it has to be.
+std::string shell_word(const std::string& text) {
+    constexpr std::string_view plain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:,=+@%";
+    if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
+    std::string quoted = "'";
+    for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
 
 /// What one state's table is made of.
 struct Plan {
@@ -40,14 +52,31 @@ Plan plan_of(const GhostsOptions& options) {
     if (!options.four.empty())
         plan.request.four_reflections = static_cast<std::size_t>(
             integer_value("--four", options.four, "a whole number from 0 to 100000", 0, 100'000));
+    if (!options.html.empty() && !options.by.empty())
+        throw bad_value("--html", options.html, "no --by: the page has the sums by surface");
     if (!options.by.empty() && options.by != "surface" && options.by != "element")
         throw bad_value("--by", options.by, "surface or element");
     // Peaks cost the most: only where they are shown.
     const std::string& shown = options.wide.empty() ? options.columns : options.wide;
     const bool all = shown.empty() || shown == "basic" || shown == "all";
     plan.request.peaks = options.by.empty() && !options.sensitivities &&
-                         (all || shown.find("peak") != std::string::npos);
+                         (all || shown.find("peak") != std::string::npos || !options.html.empty());
     return plan;
+}
+
+/// The command line again, from what the parser took.
+std::string typed_command(const CLI::App& command) {
+    std::string text = "ghostlight-cli " + command.get_name();
+    for (const CLI::Option* option : command.parse_order()) {
+        if (option->get_positional()) continue;
+        text += " " + option->get_name(false, false);
+        for (const std::string& value : option->results())
+            if (option->get_items_expected_max() > 0) text += " " + shell_word(value);
+    }
+    for (const CLI::Option* option : command.get_options())
+        if (option->get_positional() && !option->results().empty())
+            text += " " + shell_word(option->results().front());
+    return text;
 }
 
 /// The first-order columns at the end of `all`, behind the basic ones.
@@ -149,6 +178,8 @@ void run(const GhostsOptions& options) {
     std::vector<StateTable> tables;
     GhostTable first;
     std::size_t unconverged = 0, rows = 0;
+    if (!options.html.empty() && states.size() > 1)
+        throw bad_value("--html", options.html, "one state of lens and light");
     {
         ProgressLine progress("tracing ghosts");
         for (const GhostState& state : states) {
@@ -168,6 +199,14 @@ void run(const GhostsOptions& options) {
             tables.push_back({&state, table_of(options, ghosts, state)});
         }
     }
+
+    if (!options.html.empty())
+        write_file_safely(options.html,
+                          html_report({.state = &states.front(),
+                                       .ghosts = &first,
+                                       .shown = plan.top.value_or(0),
+                                       .command = options.command,
+                                       .settings = request_fields(options, plan, states)}));
 
     Report report;
     const LoadedLens& loaded = states.front().loaded;
@@ -223,6 +262,8 @@ void add_ghosts(CLI::App& program) {
                       "columns for the state in front, as with several of them");
     add_text(*command, "--wide", options->wide, "NAME",
              "one row a ghost, one column a state, of the column NAME");
+    add_text(*command, "--html", options->html, "FILE",
+             "write also one self-contained page: lens, layout, reflectances, ghosts, picture");
     add_output(*command, options->output);
     command->footer(
         R"(Several states: --field, --azimuth, --wavelength and --f-number take A:B:STEP or a comma list,
@@ -236,7 +277,10 @@ Examples:
   ghostlight-cli ghosts my_lens.json --field 10 --by surface
 
 Fluxes in mm2 per unit irradiance of the light, lengths in mm.)");
-    command->callback([options] { run(*options); });
+    command->callback([options, command] {
+        options->command = typed_command(*command);
+        run(*options);
+    });
 }
 
 }  // namespace ghostlight::cli

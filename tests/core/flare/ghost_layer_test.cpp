@@ -17,7 +17,9 @@ constexpr double picture_tolerance = 0.015;  // of the row's flux
 constexpr double of_the_strongest = 0.002;
 
 FlareImage layer(const Prescription& lens, const LightDirection& light, const GhostPath& path) {
-    FlareRequest request{.light = light, .width_px = 320};
+    FlareRequest request;
+    request.light = light;
+    request.width_px = 320;
     request.grid = 128;  // fine enough that the edges' polygons are no part of the difference
     request.only = {path};
     return *render_flare(lens, request);
@@ -65,10 +67,12 @@ TEST(GhostLayer, OfTheDirectPathHoldsTheImage) {
 TEST(GhostLayer, LayersAddUpToThePicture) {
     const Prescription lens = bundled("cooke_triplet_50_f5");
     const LightDirection light{7.0, 90.0};
-    const FlareImage all = *render_flare(lens, {.light = light, .width_px = 200});
+    FlareRequest request;
+    request.light = light;
+    request.width_px = 200;
+    const FlareImage all = *render_flare(lens, request);
     std::vector<double> sum(all.irradiance.size(), 0.0);
     for (const GhostPath& path : two_reflection_ghosts(compile(lens, 587.5618))) {
-        FlareRequest request{.light = light, .width_px = 200};
         request.only = {path};
         const FlareImage one = *render_flare(lens, request);
         for (std::size_t i = 0; i < sum.size(); ++i)

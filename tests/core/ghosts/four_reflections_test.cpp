@@ -52,8 +52,9 @@ TEST(FourReflections, ComeOutByTheirBoundEachOnce) {
         EXPECT_TRUE(paths.insert(ranked.strongest[k].path).second) << k;
     }
     for (std::size_t k = 0; k + 1 < expected.size(); ++k)
-        if (!paths.contains(expected[k].second))
+        if (!paths.contains(expected[k].second)) {
             EXPECT_NEAR(expected[k].first, expected.back().first, 1e-12 * sum) << k;
+        }
     // Until the rest is small enough.
     const RankedPaths some = strongest_four_reflections(bounds, 1.0, 100'000, 0.3 * sum);
     double taken = 0.0;

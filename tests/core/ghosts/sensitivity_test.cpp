@@ -92,7 +92,9 @@ TEST(FluxSensitivity, OfAReflectanceCountsTurnsAndCrossings) {
           std::pair{GhostPath{{4, 2}}, 0.0}}) {
         const auto slopes = flux_sensitivities(lens, 550.0, light, path, parameters);
         for (std::size_t k = 0; k < parameters.size(); ++k)
-            if (parameters[k].surface == sensor) EXPECT_NEAR(slopes[k], turns / 0.08, 1e-9);
+            if (parameters[k].surface == sensor) {
+                EXPECT_NEAR(slopes[k], turns / 0.08, 1e-9);
+            }
     }
     // A surface's own R scales the ghost that turns there as its mean R does.
     const auto slopes = flux_sensitivities(lens, 550.0, light, GhostPath{{4, 2}}, parameters);
@@ -108,8 +110,9 @@ TEST(FluxSensitivity, AQuarterWaveAtItsCentreHasItsLeastReflectance) {
     const auto parameters = coating_parameters(lens, 550.0);
     const auto slopes = flux_sensitivities(lens, 550.0, {}, GhostPath{{2, 1}}, parameters);
     for (std::size_t k = 0; k < parameters.size(); ++k)
-        if (parameters[k].kind == Kind::center || parameters[k].kind == Kind::layer_thickness)
+        if (parameters[k].kind == Kind::center || parameters[k].kind == Kind::layer_thickness) {
             EXPECT_NEAR(slopes[k], 0.0, 1e-6) << name(parameters[k]);
+        }
 }
 
 }  // namespace

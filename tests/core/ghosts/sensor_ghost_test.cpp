@@ -83,7 +83,7 @@ TEST(SensorGhost, FluxBehindAPlateIsTheProductOfItsCoefficients) {
     Prescription lens = lens_of({row(0.0, 2.0, 1.0, 5.0), row(0.0, 4.0, 1.5), row(0.0, 20.0, 1.0)});
     lens = with_sensor(lens, UniformReflectance{0.1});
     const double r = 0.04, t = 0.96, disc = std::numbers::pi * 25.0;
-    const auto table = ghost_table(lens, {.tolerance = 1e-3, .peaks = false});
+    const auto table = ghost_table(lens, {.light = {}, .tolerance = 1e-3, .peaks = false});
     ASSERT_TRUE(table.has_value());
     ASSERT_EQ(table->ghosts.size(), 3U);
     EXPECT_EQ(name(table->ghosts[0].path, table->surface_count), "sensor-3");
@@ -153,7 +153,10 @@ TEST(SensorGhost, PictureHoldsTheTablesFlux) {
         if (row.path.reflections[0] == lens.surfaces.size()) sensor += row.flux_mm2;
     }
     EXPECT_GT(sensor, 0.1 * flux);  // the picture without them would be seen to be wrong
-    const auto image = render_flare(lens, {.light = light, .width_px = 320});
+    FlareRequest request;
+    request.light = light;
+    request.width_px = 320;
+    const auto image = render_flare(lens, request);
     constexpr double picture_tolerance = 0.02;  // relative: the picture's grids
     EXPECT_NEAR(image->flux_mm2, flux, picture_tolerance * flux);
 }

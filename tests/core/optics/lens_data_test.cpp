@@ -147,7 +147,9 @@ TEST(FieldCurves, OfAThinLensAtItsStopAreNearlyCosineToTheFourth) {
         const double cosine = std::cos(rad_from_deg(at.field_deg));
         const double transmitted = at.transmittance / 0.9216;  // (1 − 0.04)² on axis
         EXPECT_NEAR(at.relative_illumination, std::pow(cosine, 4) * transmitted, 3e-3);
-        if (at.field_deg > 0.0) EXPECT_NEAR(at.distortion, 0.0, 1e-3);
+        if (at.field_deg > 0.0) {
+            EXPECT_NEAR(at.distortion, 0.0, 1e-3);
+        }
     }
 }
 
