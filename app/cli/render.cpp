@@ -95,6 +95,8 @@ void run(const RenderOptions& options) {
                                                            "a whole number from 1 to 300", 1, 300));
     }
     const LoadedLens loaded = load_lens(options.lens);
+    // With layers the same grids for all, so that the layers add up to the picture.
+    if (per_ghost > 0) request.method = FlareMethod::uniform;
     const FlareImage image = *render_flare(loaded.lens, request);
     const FlareOrigin origin = origin_of(loaded, request);
     GhostLayers layers;

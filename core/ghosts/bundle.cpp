@@ -3,38 +3,19 @@
 #include <algorithm>
 
 #include "core/ghosts/bundle_kernel.h"
+#include "core/instruction_set.h"
 
 namespace ghostlight {
 namespace {
 
 static_assert(max_recorded_reflections == max_reflections);
 
-#ifdef GHOSTLIGHT_HAVE_X86_ISA
-bool has_v3() {
-    static const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-                            __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("f16c");
-    return has;
-}
 template <class T>
 void run(const BundleView<T>& view) {
-    has_v3() ? kernels_v3::trace_bundle_lanes(view) : kernels_v2::trace_bundle_lanes(view);
+    GHOSTLIGHT_DISPATCH(trace_bundle_lanes, view);
 }
-#else
-template <class T>
-void run(const BundleView<T>& view) {
-    kernels_generic::trace_bundle_lanes(view);
-}
-#endif
 
 }  // namespace
-
-const char* instruction_set() {
-#ifdef GHOSTLIGHT_HAVE_X86_ISA
-    return has_v3() ? "AVX2" : "SSE4.2";
-#else
-    return "portable";
-#endif
-}
 
 template <class T>
 void trace_bundle(const TracePath<T>& path, const BeamFrame& frame, Weights weights,
@@ -89,6 +70,11 @@ void trace_bundle(const TracePath<T>& path, const BeamFrame& frame, Weights weig
         bundle.onset[k].resize(padded);
         view.reflectance[k] = bundle.reflectance[k].data();
         view.onset[k] = bundle.onset[k].data();
+    }
+    if (bundle.keep_cosines) {
+        bundle.cosine_stride = padded;
+        bundle.cosines.resize(path.steps.size() * padded);
+        view.cosines = bundle.cosines.data();
     }
     view.weights = static_cast<int>(weights);
     run(view);

@@ -41,6 +41,16 @@ struct FaceOf {
     }
 };
 
+/// Whatever the wavelength, so that a lens has the same ghosts at all of them.
+bool reflects_somewhere(const SensorReflectance& reflectance) {
+    if (const auto* uniform = std::get_if<UniformReflectance>(&reflectance))
+        return uniform->share > 0.0;
+    if (const auto* table = std::get_if<ReflectanceTable>(&reflectance))
+        return std::ranges::any_of(table->entries,
+                                   [](const ReflectanceAt& at) { return at.share > 0.0; });
+    return false;  // films: by what they are
+}
+
 /// The sensor's face at the end of the rows, or nothing where it sends nothing back.
 std::optional<SurfaceAt> face_of(const Sensor& sensor, double n_before, double wavelength_nm) {
     if (!sensor.reflectance) return std::nullopt;
@@ -50,8 +60,7 @@ std::optional<SurfaceAt> face_of(const Sensor& sensor, double n_before, double w
     std::visit(FaceOf{wavelength_nm, face}, *sensor.reflectance);
     face.n_after = face.film.n_out;
     face.semi_diameter_mm = 0.5 * std::hypot(sensor.width_mm, sensor.height_mm);
-    face.reflects =
-        face.uniform_reflectance ? *face.uniform_reflectance > 0.0 : !is_invisible(face.film);
+    face.reflects = reflects_somewhere(*sensor.reflectance) || !is_invisible(face.film);
     if (!face.reflects) return std::nullopt;
     return face;
 }

@@ -70,6 +70,7 @@ TEST(GhostLayer, LayersAddUpToThePicture) {
     FlareRequest request;
     request.light = light;
     request.width_px = 200;
+    request.method = FlareMethod::uniform;
     const FlareImage all = *render_flare(lens, request);
     std::vector<double> sum(all.irradiance.size(), 0.0);
     for (const GhostPath& path : two_reflection_ghosts(compile(lens, 587.5618))) {
