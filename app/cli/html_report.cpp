@@ -25,8 +25,8 @@ body{font:14px/1.5 system-ui,"Segoe UI",Helvetica,Arial,sans-serif;color:#222;ma
 h1{font-size:24px;margin:0}h2{font-size:17px;margin:34px 0 8px;border-bottom:1px solid #ccc;padding-bottom:4px}
 p{margin:6px 0;max-width:80em}.lead{color:#555}
 table{border-collapse:collapse;font-size:12.5px;font-variant-numeric:tabular-nums}
-th{text-align:right;font-weight:600;border-bottom:1.5px solid #666;padding:3px 9px;vertical-align:bottom}
-td{text-align:right;padding:2px 9px;border-bottom:1px solid #eee}th.t,td.t{text-align:left}
+th{text-align:right;font-weight:600;border-bottom:1.5px solid #666;padding:3px 7px;vertical-align:bottom}
+td{text-align:right;padding:2px 7px;border-bottom:1px solid #eee;white-space:nowrap}th.t,td.t{text-align:left}
 tr.total td{border-top:1.5px solid #666;font-weight:600}
 .key{display:grid;grid-template-columns:repeat(auto-fit,minmax(330px,1fr));gap:0 28px}
 .key div{display:flex;justify-content:space-between;border-bottom:1px solid #eee;padding:2px 0}
@@ -158,7 +158,8 @@ Chart reflectance_chart(const Prescription& lens) {
         names.push_back(label);
     }
     for (std::size_t k = 0; k < curves.size(); ++k)
-        chart.curves.push_back({"surface " + names[k], chart_color(k), wavelengths, curves[k]});
+        chart.curves.push_back({(names[k] == "sensor" ? "" : "surface ") + names[k], chart_color(k),
+                                wavelengths, curves[k]});
     return chart;
 }
 
