@@ -44,7 +44,7 @@ TEST_F(CommandLineRender, FlareIsAnotherNameForIt) {
     auto arguments = render(file("flare.tif"));
     arguments.front() = "flare";
     cli_output(arguments);
-    EXPECT_GT(std::filesystem::file_size(folder / "flare.tif"), 64U * 42 * 3);
+    EXPECT_EQ(read_file(folder / "flare.tif").substr(0, 2), "II");  // a TIFF of this byte order
     const Outcome outcome = cli({"flares"});
     EXPECT_EQ(outcome.status, 2);
     EXPECT_NE(outcome.err.find("render"), std::string::npos) << outcome.err;
