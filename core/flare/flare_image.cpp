@@ -108,12 +108,20 @@ FlareScene compiled_scene(const Prescription& lens, const FlareRequest& request)
                        request.coating_model);
 }
 
+/// The planned method traces half of each beam, turned into the y–z plane: the rectangle of a
+/// sensor that reflects has to be symmetric about that.
+bool can_be_planned(const Prescription& lens, const FlareRequest& request) {
+    return !lens.sensor.reflectance ||
+           std::abs(std::fmod(request.light.azimuth_deg, 180.0)) == 90.0;
+}
+
 }  // namespace
 
 std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequest& request,
                                        std::stop_token stop) {
     switch (request.method) {
         case FlareMethod::planned:
+            if (!can_be_planned(lens, request)) break;
             return render_planned(compiled_scene(lens, request), request, std::move(stop));
         case FlareMethod::paraxial:
             return render_paraxial(compiled_scene(lens, request), request, std::move(stop));
@@ -131,7 +139,8 @@ std::optional<FlareImage> render_uniform(const Prescription& lens, const FlareRe
     const auto colors = sample_colors(request.spectrum, samples);
     std::vector<OpticalSystem> systems;
     for (const SpectralSample& s : samples) systems.push_back(compile(lens, s.wavelength_nm));
-    const std::vector<GhostPath> ghosts = two_reflection_ghosts(systems.front());
+    const std::vector<GhostPath> ghosts =
+        request.only.empty() ? two_reflection_ghosts(systems.front()) : request.only;
     const BeamFrame frame = beam_frame(request.light);
     const PixelFrame pixels = pixel_frame(systems.front().sensor_width_mm,
                                           systems.front().sensor_height_mm, request.width_px);

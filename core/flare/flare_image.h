@@ -36,6 +36,8 @@ struct FlareRequest {
     int grid = 0;              ///< uniform: cells across every ghost's pupil; 0 = by bend_px
     double culled = 0.0;       ///< uniform: share of the ghosts, the weakest, that is not drawn
     int spectral_samples = 5;  ///< used when the light is not of one wavelength
+    /// Draw these paths alone, by `uniform`; empty = all ghosts.
+    std::vector<GhostPath> only;
     std::vector<GhostPath> highlighted;  ///< these ghosts also go into FlareImage::highlight
     unsigned threads = 0;
 };

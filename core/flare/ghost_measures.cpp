@@ -95,6 +95,7 @@ std::vector<int> singular_cells(const MirrorGrid& grid, const MeshNodes& nodes) 
             if (high < 0.0F) continue;
             bool singular = low <= high - low;
             for (const auto& onset : grid.half.onset) {
+                if (onset.empty()) continue;  // fewer reflections
                 const auto [least, most] = range(onset);
                 singular = singular || (least <= most - least && most >= least - most);
             }

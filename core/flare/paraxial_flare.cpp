@@ -185,11 +185,12 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
     const PixelFrame frame =
         pixel_frame(system.sensor_width_mm, system.sensor_height_mm, request.width_px);
     FlareImage image = empty_image(system, frame);
-    image.ghosts = scene.ghosts.size();
+    const std::vector<GhostPath>& ghosts = request.only.empty() ? scene.ghosts : request.only;
+    image.ghosts = ghosts.size();
     const ParaxialPainter painter(scene, request.light, frame);
-    std::vector<DrawnGhost<C>> drawn(scene.ghosts.size());
+    std::vector<DrawnGhost<C>> drawn(ghosts.size());
     if (!parallel_for(drawn.size(), request.threads, stop,
-                      [&](std::size_t g) { painter.paint(scene.ghosts[g], drawn[g].mesh); }))
+                      [&](std::size_t g) { painter.paint(ghosts[g], drawn[g].mesh); }))
         return std::nullopt;
     if (!draw_picture<C>(drawn, frame, request.threads, stop, image)) return std::nullopt;
     for (const DrawnGhost<C>& ghost : drawn) {

@@ -29,13 +29,14 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
     const PixelFrame frame =
         pixel_frame(system.sensor_width_mm, system.sensor_height_mm, request.width_px);
     FlareImage image = empty_image(system, frame);
-    image.ghosts = scene.ghosts.size();
+    const std::vector<GhostPath>& ghosts = request.only.empty() ? scene.ghosts : request.only;
+    image.ghosts = ghosts.size();
     image.plan.tolerance = request.tolerance;
 
     const GhostPlanner planner(scene, request.light, frame);
-    std::vector<ProbedGhost> probed(scene.ghosts.size());
+    std::vector<ProbedGhost> probed(ghosts.size());
     bool finished = parallel_for(probed.size(), request.threads, stop, [&](std::size_t g) {
-        probed[g] = planner.probe(scene.ghosts[g]);
+        probed[g] = planner.probe(ghosts[g]);
     });
     if (!finished) return std::nullopt;
     image.times.bounds_ms = ms_since(began);
@@ -59,7 +60,7 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
         if (probed[g].planned.fate != GhostFate::drawn) return;
         planner.draw(probed[g], drawn[g].mesh);
         drawn[g].level = probed[g].planned.level;
-        if (std::ranges::find(request.highlighted, scene.ghosts[g]) != request.highlighted.end()) {
+        if (std::ranges::find(request.highlighted, ghosts[g]) != request.highlighted.end()) {
             highlighted[g].mesh = last_channel(drawn[g].mesh);
             highlighted[g].level = drawn[g].level;
         }
