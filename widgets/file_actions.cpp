@@ -192,7 +192,7 @@ bool FileActions::export_table(const std::filesystem::path& file) {
         if (!table) {
             throw Error("there is no ghost table yet: it is still being computed");
         }
-        write_file_safely(file, ghost_table_csv(*table));
+        write_file_safely(file, ghost_table_csv(*table, GhostColumns::all));
     });
 }
 
@@ -212,7 +212,7 @@ bool FileActions::export_png(const std::filesystem::path& file) {
         if (!image) {
             throw Error("there is no flare yet: it is still being computed");
         }
-        write_png(*image, shown_.exposure_ev(), file);
+        write_display(*image, shown_.exposure_ev(), file);
     });
 }
 

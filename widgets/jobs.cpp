@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/flare/planned_flare.h"
 
 namespace ghostlight {
 
@@ -14,20 +15,15 @@ namespace {
 constexpr int table_delay_ms = 200;
 
 /// Coarse pictures, finest first. The one in use follows the time that the last one took.
-std::array<FlareRequest, 5> coarse_requests() {
-    std::array<FlareRequest, 5> requests{};
-    const std::array<int, 5> widths = {960, 800, 640, 480, 320};
-    const std::array<int, 5> grids = {20, 16, 12, 8, 6};
-    for (std::size_t k = 0; k < requests.size(); ++k) {
-        requests[k].width_px = widths[k];
-        requests[k].grid = grids[k];
-        requests[k].spectral_samples = 3;
-    }
-    return requests;
-}
+struct Coarse {
+    double tolerance;
+    int width_px;
+};
+constexpr std::array<Coarse, 5> coarse_pictures = {
+    {{0.04, 1280}, {0.08, 1280}, {0.12, 960}, {0.2, 640}, {0.3, 480}}};
 
-constexpr double too_slow_ms = 60.0;
-constexpr double quick_ms = 15.0;
+constexpr double too_slow_ms = 33.0;
+constexpr double quick_ms = 12.0;
 
 }  // namespace
 
@@ -102,13 +98,24 @@ void Jobs::cancel_table() {
     }
 }
 
+const FlareScene& Jobs::compiled(const Snapshot& job) {
+    if (!compiled_ || compiled_->lens != job.lens ||
+        compiled_->scene.spectrum != job.scene.spectrum) {
+        compiled_.reset();
+        compiled_.emplace(job.lens, flare_scene(job.lens, job.scene.spectrum));
+    }
+    return compiled_->scene;
+}
+
 void Jobs::work_on_flare(const Snapshot& job, const std::stop_token& stop) {
-    static const auto coarse = coarse_requests();
-    const auto render = [&](FlareRequest request, const std::stop_token& token, bool is_final) {
+    const auto render = [&](double tolerance, int width_px, const std::stop_token& token,
+                            bool is_final) {
+        FlareRequest request;
         request.light = job.scene.light;
-        request.spectrum = job.scene.spectrum;
+        request.tolerance = tolerance;
+        request.width_px = width_px;
         request.highlighted = job.highlighted;
-        std::optional<FlareImage> image = render_flare(job.lens, request, token);
+        std::optional<FlareImage> image = render_planned(compiled(job), request, token);
         if (!image) {
             return 0.0;
         }
@@ -122,16 +129,16 @@ void Jobs::work_on_flare(const Snapshot& job, const std::stop_token& stop) {
     };
     try {
         // Not interrupted: else a light that moves faster than pictures come would show none.
+        const Coarse& coarse = coarse_pictures[static_cast<std::size_t>(coarseness_)];
         const double took_ms =
-            job.coarse_first ? render(coarse[static_cast<std::size_t>(coarseness_)], {}, false)
-                             : quick_ms;
+            job.coarse_first ? render(coarse.tolerance, coarse.width_px, {}, false) : quick_ms;
         if (took_ms > too_slow_ms) {
-            coarseness_ = std::min(coarseness_ + 1, static_cast<int>(coarse.size()) - 1);
+            coarseness_ = std::min(coarseness_ + 1, static_cast<int>(coarse_pictures.size()) - 1);
         } else if (took_ms < quick_ms) {
             coarseness_ = std::max(coarseness_ - 1, 0);
         }
         if (!stop.stop_requested()) {
-            render(FlareRequest{}, stop, true);
+            render(job.scene.flare_tolerance, FlareRequest{}.width_px, stop, true);
         }
     } catch (const std::exception& error) {
         QMetaObject::invokeMethod(

@@ -7,8 +7,10 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "core/flare/flare_image.h"
+#include "core/flare/flare_scene.h"
 #include "core/ghosts/ghost_table.h"
 #include "widgets/document.h"
 #include "widgets/newest_job.h"
@@ -63,6 +65,7 @@ class Jobs : public QObject {
     void follow_document();
     void request_flare(bool coarse_first);
     void request_table();
+    const FlareScene& compiled(const Snapshot& snapshot);
     void work_on_flare(const Snapshot& snapshot, const std::stop_token& stop);
     void work_on_table(const Snapshot& snapshot, const std::stop_token& stop);
     void take_flare(const FlarePicture& picture, std::uint64_t serial);
@@ -77,7 +80,14 @@ class Jobs : public QObject {
     std::uint64_t table_serial_ = 0;
     bool flare_open_ = false;
     bool table_open_ = false;
-    int coarseness_ = 1;  ///< of coarse pictures; belongs to the flare's thread
+    // Both belong to the flare's thread.
+    int coarseness_ = 0;  ///< of coarse pictures
+    /// The lens compiled for pictures, as long as it and its light's spectrum stay the same.
+    struct CompiledLens {
+        Prescription lens;
+        FlareScene scene;
+    };
+    std::optional<CompiledLens> compiled_;
     std::unique_ptr<NewestJob<Snapshot>> flare_job_;
     std::unique_ptr<NewestJob<Snapshot>> table_job_;
 };

@@ -60,6 +60,7 @@ std::string scene_to_json(const Scene& scene) {
     object["azimuth_deg"] = scene.light.azimuth_deg;
     object["spectrum"] = QString::fromStdString(name(scene.spectrum));
     object["tolerance"] = scene.tolerance;
+    object["flare_tolerance"] = scene.flare_tolerance;
     return QJsonDocument(object).toJson(QJsonDocument::Compact).toStdString();
 }
 
@@ -79,10 +80,14 @@ Scene scene_from_json(std::string_view text, const Prescription& lens, const Sce
         scene.light.field_deg = field_deg;
     }
     scene.light.azimuth_deg = object["azimuth_deg"].toDouble(scene.light.azimuth_deg);
-    const double tolerance = object["tolerance"].toDouble(scene.tolerance);
-    if (tolerance > 0.0 && tolerance < 1.0) {
-        scene.tolerance = tolerance;
-    }
+    const auto read_tolerance = [&object](const char* key, double& tolerance) {
+        const double share = object[key].toDouble(tolerance);
+        if (share > 0.0 && share < 1.0) {
+            tolerance = share;
+        }
+    };
+    read_tolerance("tolerance", scene.tolerance);
+    read_tolerance("flare_tolerance", scene.flare_tolerance);
     try {
         if (object.contains("spectrum")) {
             scene.spectrum = parse_spectrum(object["spectrum"].toString().toStdString());

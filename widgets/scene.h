@@ -14,7 +14,8 @@ struct Scene {
     std::string configuration;  ///< empty: as listed
     LightDirection light{10.0, 90.0};
     Spectrum spectrum = StandardLight{Illuminant::d65};
-    double tolerance = 0.01;  ///< of the ghost table's fluxes
+    double tolerance = 0.01;        ///< of the ghost table's fluxes
+    double flare_tolerance = 0.02;  ///< relative L1 error of the flare at rest
     bool operator==(const Scene&) const = default;
 };
 

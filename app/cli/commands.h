@@ -11,7 +11,7 @@ void add_info(CLI::App& program);
 void add_trace(CLI::App& program);
 void add_coating(CLI::App& program);
 void add_ghosts(CLI::App& program);
-void add_flare(CLI::App& program);
+void add_render(CLI::App& program);
 void add_lenses(CLI::App& program);
 
 }  // namespace ghostlight::cli

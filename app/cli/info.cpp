@@ -1,50 +1,45 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "app/cli/commands.h"
+#include "app/cli/lens_data.h"
 #include "app/cli/report.h"
-#include "core/optics/optical_system.h"
-#include "core/optics/paraxial.h"
 
 namespace ghostlight::cli {
 namespace {
 
 struct InfoOptions {
     LensOptions lens;
-    std::string wavelength = "587.5618";
+    std::string wavelength = "587.5618", points = "11";
+    bool rays = false, curves = false;
     OutputOptions output;
 };
 
-struct Quantity {
-    std::string name;
-    Cell value;
-    std::string meaning;
+/// A lens in one of its configurations.
+struct Position {
+    LoadedLens loaded;
+    OpticalSystem system;
 };
 
-std::vector<Quantity> quantities(const OpticalSystem& system) {
-    const FirstOrder first = first_order(system);
-    const auto ghosts = static_cast<std::int64_t>(two_reflection_ghosts(system).size());
-    return {
-        {"efl_mm", first.efl_mm, "effective focal length"},
-        {"bfd_mm", first.bfd_mm, "last vertex to rear focus"},
-        {"ffd_mm", first.ffd_mm, "first vertex to front focus, signed"},
-        {"f_number", first.f_number, "with the stop as it stands"},
-        {"entrance_pupil_z_mm", first.entrance_pupil_z_mm, "from the first vertex"},
-        {"entrance_pupil_radius_mm", first.entrance_pupil_radius_mm, ""},
-        {"exit_pupil_z_mm", first.exit_pupil_z_mm, "from the last vertex"},
-        {"exit_pupil_radius_mm", first.exit_pupil_radius_mm, ""},
-        {"sensor_distance_mm", first.sensor_distance_mm, "last vertex to sensor"},
-        {"paraxial_defocus_mm", first.paraxial_defocus_mm, "sensor - focus"},
-        {"ghosts", ghosts, "pairs of two reflections"},
-    };
+std::vector<Position> positions_of(const InfoOptions& options, double wavelength_nm) {
+    std::vector<Position> positions;
+    for (const std::string& configuration : configurations_of(options.lens)) {
+        LensOptions one = options.lens;
+        one.config = configuration;
+        LoadedLens loaded = load_lens(one);
+        OpticalSystem system = compile(loaded.lens, wavelength_nm);
+        positions.push_back({std::move(loaded), std::move(system)});
+    }
+    return positions;
 }
 
-std::string readable(const LoadedLens& loaded, double wavelength_nm,
-                     const std::vector<Quantity>& values) {
+std::string lens_lines(const LoadedLens& loaded, double wavelength_nm) {
     std::string text = lens_heading(loaded) + "\n";
     const auto line = [&](std::string_view label, std::string_view value) {
-        if (!value.empty()) text += fmt::format("  {:<26}{}\n", label, value);
+        if (!value.empty()) text += fmt::format("  {:<28}{}\n", label, value);
     };
     const Prescription& lens = loaded.lens;
     line("source", lens.source);
@@ -55,26 +50,71 @@ std::string readable(const LoadedLens& loaded, double wavelength_nm,
          fmt::format("{}, the stop is row {}", lens.surfaces.size(), lens.stop.surface + 1));
     line("sensor_mm", fmt::format("{:.6g} x {:.6g}", lens.sensor.width_mm, lens.sensor.height_mm));
     line("wavelength_nm", fmt::format("{}", wavelength_nm));
-    text += '\n';
-    for (const Quantity& quantity : values)
-        text += fmt::format("  {:<26}{:>12}{}{}\n", quantity.name, readable_text(quantity.value),
-                            quantity.meaning.empty() ? "" : "   ", quantity.meaning);
+    return text + "\n";
+}
+
+/// One line a quantity, one column a position of the lens.
+std::string readable(const std::vector<Position>& positions, double wavelength_nm) {
+    std::string text = lens_lines(positions.front().loaded, wavelength_nm);
+    std::vector<std::vector<LensQuantity>> values;
+    for (const Position& each : positions) values.push_back(lens_quantities(each.system));
+    constexpr std::size_t width = 14;
+    if (positions.size() > 1) {
+        text += fmt::format("  {:<28}", "");
+        for (const Position& each : positions)
+            text += fmt::format("{:>{}}", each.loaded.configuration, width);
+        text += '\n';
+    }
+    for (std::size_t k = 0; k < values.front().size(); ++k) {
+        const LensQuantity& quantity = values.front()[k];
+        text += fmt::format("  {:<28}", quantity.name);
+        for (const auto& of_one : values)
+            text += fmt::format("{:>{}}", readable_text(of_one[k].value), width);
+        text += fmt::format("{}{}\n", quantity.meaning.empty() ? "" : "   ", quantity.meaning);
+    }
+    for (const Note& note : positions.front().loaded.notes)
+        text += fmt::format("\n  {}: {}{}{}\n", severity_name(note.severity), note.where,
+                            note.where.empty() ? "" : ": ", note.text);
     return text;
 }
 
-void run(const InfoOptions& options) {
-    const LoadedLens loaded = load_lens(options.lens);
-    const double wavelength_nm = wavelength_value("--wavelength", options.wavelength);
-    const auto values = quantities(compile(loaded.lens, wavelength_nm));
+Table one_row(const OpticalSystem& system) {
+    Table table;
+    table.rows.emplace_back();
+    for (const LensQuantity& quantity : lens_quantities(system)) {
+        table.columns.push_back(quantity.name);
+        table.rows.front().push_back(quantity.value);
+    }
+    return table;
+}
 
-    if (!options.output.csv && !options.output.json) {
-        std::string text = readable(loaded, wavelength_nm, values);
-        for (const Note& note : loaded.notes)
-            text += fmt::format("\n  {}: {}{}{}\n", severity_name(note.severity), note.where,
-                                note.where.empty() ? "" : ": ", note.text);
-        write_text(text, options.output);
+/// The tables of all positions below one another, their configurations in front.
+Table together(const std::vector<Position>& positions, const std::vector<Table>& tables) {
+    if (tables.size() == 1) return tables.front();
+    Table all;
+    all.columns = {"configuration"};
+    all.columns.insert(all.columns.end(), tables.front().columns.begin(),
+                       tables.front().columns.end());
+    for (std::size_t k = 0; k < tables.size(); ++k)
+        for (const auto& row : tables[k].rows) {
+            auto& cells = all.rows.emplace_back();
+            cells.emplace_back(positions[k].loaded.configuration);
+            cells.insert(cells.end(), row.begin(), row.end());
+        }
+    return all;
+}
+
+void run(const InfoOptions& options) {
+    const double wavelength_nm = wavelength_value("--wavelength", options.wavelength);
+    const auto points = static_cast<int>(
+        integer_value("--points", options.points, "a whole number from 2 to 1000", 2, 1000));
+    const std::vector<Position> positions = positions_of(options, wavelength_nm);
+    const bool plain = !options.rays && !options.curves;
+    if (plain && !options.output.csv && !options.output.json) {
+        write_text(readable(positions, wavelength_nm), options.output);
         return;
     }
+    const LoadedLens& loaded = positions.front().loaded;
     Report report{.lens = lens_fields(loaded), .request = {}, .heading = {}, .table = {}};
     const Prescription& lens = loaded.lens;
     std::vector<std::string> names;
@@ -85,11 +125,13 @@ void run(const InfoOptions& options) {
     report.lens.emplace_back("stop_surface", fmt::format("{}", lens.stop.surface + 1));
     report.request = {{"command", json_string("info")},
                       {"wavelength_nm", json_value(wavelength_nm)}};
-    report.table.rows.emplace_back();
-    for (const Quantity& quantity : values) {
-        report.table.columns.push_back(quantity.name);
-        report.table.rows.front().push_back(quantity.value);
-    }
+    report.heading = fmt::format("{}: {} nm", lens_heading(loaded), wavelength_nm);
+    std::vector<Table> tables;
+    for (const Position& each : positions)
+        tables.push_back(options.rays     ? paraxial_ray_rows(each.system)
+                         : options.curves ? field_curve_rows(each.system, points)
+                                          : one_row(each.system));
+    report.table = together(positions, tables);
     write_report(report, options.output);
     print_notes(loaded.notes, Note::Severity::info);
 }
@@ -102,10 +144,23 @@ void add_info(CLI::App& program) {
     add_lens(*command, options->lens)->required();
     add_text(*command, "--wavelength", options->wavelength, "NM", "wavelength, nm")
         ->capture_default_str();
+    CLI::Option* rays = command->add_flag(
+        "--rays", options->rays, "instead the paraxial marginal and chief rays, by surface");
+    command
+        ->add_flag("--curves", options->curves,
+                   "instead distortion, vignetting and relative illumination over the field, by\n"
+                   "real rays")
+        ->excludes(rays);
+    add_text(*command, "--points", options->points, "N", "field angles of --curves")
+        ->capture_default_str();
     add_output(*command, options->output);
-    command->footer(R"(Examples:
+    command->footer(R"(--config takes a comma list, or all: then the data are given for each.
+
+Examples:
   ghostlight-cli info tessar_brendel_100_f2.8
-  ghostlight-cli info my_lens.json --wavelength 486.1327 --f-number 8 --json)");
+  ghostlight-cli info my_zoom.json --config all
+  ghostlight-cli info my_lens.json --wavelength 486.1327 --f-number 8 --json
+  ghostlight-cli info my_lens.json --curves --points 21 --csv)");
     command->callback([options] { run(*options); });
 }
 

@@ -23,7 +23,7 @@ constexpr auto examples = R"(Examples:
   ghostlight-cli ghosts tessar_brendel_100_f2.8 --field 15 --top 10 --paraxial
   ghostlight-cli trace LENS --ghost 5-3 --field 15 --rays rays.csv --csv
   ghostlight-cli coating --stack "1.0 | 1.38:96.4 | 1.5" --wavelengths 400:700:10 --angles 0:80:20
-  ghostlight-cli flare LENS --field 15 -o flare.exr
+  ghostlight-cli render LENS --field 15 -o flare.exr
 
 Units: lengths mm, wavelengths nm in standard air, angles degrees; fluxes mm2 (per unit irradiance
 of the light). Surfaces count from 1, the stop included; ghost i-j turns first at i, then at j.
@@ -35,10 +35,16 @@ void check_command(const CLI::App& program, const std::vector<std::string>& argu
     const std::string first = arguments.empty() ? "" : arguments.front();
     if (std::find(without_command.begin(), without_command.end(), first) != without_command.end())
         return;
-    std::vector<std::string> names;
-    for (const CLI::App* command : program.get_subcommands({}))
+    std::vector<std::string> names, aliases;
+    for (const CLI::App* command : program.get_subcommands({})) {
         names.push_back(command->get_name());
-    if (arguments.empty() || std::find(names.begin(), names.end(), first) == names.end())
+        const auto& others = command->get_aliases();
+        aliases.insert(aliases.end(), others.begin(), others.end());
+    }
+    const auto has = [&](const std::vector<std::string>& list) {
+        return std::find(list.begin(), list.end(), first) != list.end();
+    };
+    if (arguments.empty() || !(has(names) || has(aliases)))
         throw Error({.problem = arguments.empty() ? "no command" : "unknown command",
                      .file = {},
                      .where = {},
@@ -59,7 +65,7 @@ int run(std::vector<std::string> arguments) {
     add_trace(program);
     add_coating(program);
     add_ghosts(program);
-    add_flare(program);
+    add_render(program);
     add_lenses(program);
     try {
         check_command(program, arguments);

@@ -19,16 +19,6 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-std::vector<std::string_view> split(std::string_view text, char separator) {
-    std::vector<std::string_view> parts;
-    for (;;) {
-        const auto at = text.find(separator);
-        parts.push_back(text.substr(0, at));
-        if (at == std::string_view::npos) return parts;
-        text.remove_prefix(at + 1);
-    }
-}
-
 // Digits after the decimal point of a plain decimal; none for one with an exponent.
 std::optional<int> decimals(std::string_view text) {
     if (text.find_first_of("eE") != std::string_view::npos) return std::nullopt;
@@ -113,6 +103,17 @@ void override_sensor(Sensor& sensor, std::string_view text) {
     sensor.height_mm = *height;
 }
 
+void override_sensor_reflectance(Sensor& sensor, std::string_view text) {
+    if (text == "none") {
+        sensor.reflectance.reset();
+        return;
+    }
+    const auto share = parse_number(text);
+    if (!share || *share < 0.0 || *share > 1.0)
+        throw bad_value("--sensor-reflectance", text, "a share from 0 to 1, or none");
+    sensor.reflectance = UniformReflectance{*share};
+}
+
 Coating parse_coating(std::string_view text) {
     constexpr std::string_view expected =
         "none, qw:NM or qw:NM:INDEX, such as qw:550 (MgF2) or qw:550:1.38";
@@ -154,6 +155,16 @@ Error bad_value(std::string_view option, std::string_view found, std::string_vie
                   .where = std::string(option),
                   .found = fmt::format("'{}'", found),
                   .expected = std::string(expected)});
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+    std::vector<std::string_view> parts;
+    for (;;) {
+        const auto at = text.find(separator);
+        parts.push_back(trimmed(text.substr(0, at)));
+        if (at == std::string_view::npos) return parts;
+        text.remove_prefix(at + 1);
+    }
 }
 
 std::string short_name(const BundledLens& lens) { return lens.file.stem().string(); }
@@ -248,6 +259,11 @@ CLI::Option* add_lens(CLI::App& command, LensOptions& options) {
         ->group(group);
     add_text(command, "--sensor", options.sensor, "WxH", "size of the sensor, mm, such as 36x24")
         ->group(group);
+    add_text(
+        command, "--sensor-reflectance", options.sensor_reflectance, "R|none",
+        "share of the light that the sensor sends back, 0 to 1, at every angle and\n"
+        "wavelength; none: the sensor is not a ghost's surface; default: as the\nlens file says")
+        ->group(group);
     add_text(command, "--coating", options.coating, "none|qw:NM[:INDEX]",
              "quarter-wave layer centred at NM nm on every surface with air on exactly\n"
              "one side, none elsewhere; without INDEX it is MgF2; default: as the\nlens file says")
@@ -267,12 +283,27 @@ LoadedLens load_lens(const LensOptions& options) {
         read_option("--config", [&, &listed = lens] { return configured(listed, options.config); });
     override_stop(loaded.lens, options);
     if (!options.sensor.empty()) override_sensor(loaded.lens.sensor, options.sensor);
+    if (!options.sensor_reflectance.empty())
+        override_sensor_reflectance(loaded.lens.sensor, options.sensor_reflectance);
     if (!options.coating.empty())
         loaded.lens = with_air_coating(loaded.lens, parse_coating(options.coating));
     validate(loaded.lens);
     if (!options.f_number.empty() || !options.stop_semi_diameter.empty())
         note_capped_stop(loaded.lens, loaded.notes);
     return loaded;
+}
+
+std::vector<std::string> configurations_of(const LensOptions& options) {
+    if (options.config.empty()) return {""};
+    LensOptions listed = options;
+    listed.config.clear();
+    listed.f_number.clear();
+    const std::vector<std::string> known = load_lens(listed).configurations;
+    if (std::ranges::find(known, options.config) != known.end()) return {options.config};
+    if (options.config == "all") return known.empty() ? std::vector<std::string>{""} : known;
+    std::vector<std::string> names;
+    for (const std::string_view name : split(options.config, ',')) names.emplace_back(name);
+    return names;
 }
 
 CLI::Option* add_light(CLI::App& command, LightOptions& options) {

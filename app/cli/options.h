@@ -36,6 +36,9 @@ auto read_option(std::string_view option, const Read& read) {
 /// "a, b, c"
 std::string joined(const std::vector<std::string>& texts, std::string_view separator);
 
+/// The parts between separators, spaces around them gone.
+std::vector<std::string_view> split(std::string_view text, char separator);
+
 /// A finite number in C notation without anything around it but spaces.
 std::optional<double> parse_number(std::string_view text);
 
@@ -63,7 +66,7 @@ CLI::Option* add_text(CLI::App& command, const std::string& name, std::string& v
 
 /// LENS and what overrides it for one run.
 struct LensOptions {
-    std::string lens, config, f_number, stop_semi_diameter, sensor, coating;
+    std::string lens, config, f_number, stop_semi_diameter, sensor, sensor_reflectance, coating;
 };
 CLI::Option* add_lens(CLI::App& command, LensOptions& options);
 
@@ -79,6 +82,10 @@ struct LoadedLens {
     Notes notes;
 };
 LoadedLens load_lens(const LensOptions& options);
+
+/// What `--config` names: one configuration, a comma list of them, or "all"; one empty text for the
+/// lens as listed. Names are checked when the lens is loaded.
+std::vector<std::string> configurations_of(const LensOptions& options);
 
 /// Where the light comes from.
 struct LightOptions {

@@ -41,7 +41,9 @@ std::string lens_heading(const LoadedLens& loaded) {
 
 void write_report(const Report& report, const OutputOptions& options) {
     if (options.json) {
-        write_text(fmt::format("{{\n\"lens\": {},\n\"request\": {},\n\"rows\": {}\n}}\n",
+        write_text(fmt::format("{{\n\"program\": \"ghostlight-cli " GHOSTLIGHT_VERSION
+                               "\",\n\"lens\": {},\n"
+                               "\"request\": {},\n\"rows\": {}\n}}\n",
                                json_object(report.lens), json_object(report.request),
                                table_json(report.table)),
                    options);

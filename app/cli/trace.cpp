@@ -44,13 +44,13 @@ void run(const TraceOptions& options) {
     Report report;
     report.lens = lens_fields(loaded);
     report.request = {{"command", json_string("trace")},
-                      {"ghost", json_string(name(path))},
+                      {"ghost", json_string(name(path, system.surfaces.size()))},
                       {"wavelength_nm", json_value(wavelength_nm)},
                       {"field_deg", json_value(light.field_deg)},
                       {"azimuth_deg", json_value(light.azimuth_deg)}};
-    report.heading =
-        fmt::format("{}: {}, {} nm, field {} deg, azimuth {} deg", lens_heading(loaded), name(path),
-                    wavelength_nm, light.field_deg, light.azimuth_deg);
+    report.heading = fmt::format("{}: {}, {} nm, field {} deg, azimuth {} deg",
+                                 lens_heading(loaded), name(path, system.surfaces.size()),
+                                 wavelength_nm, light.field_deg, light.azimuth_deg);
     report.table.columns = {
         "px_mm",     "py_mm",     "status", "x_mm",   "y_mm",          "dx", "dy", "dz",
         "stop_u_mm", "stop_v_mm", "r_rel",  "weight", "weight_average"};

@@ -187,6 +187,7 @@ class Builder {
         const Point centre{third2.x + share * (third1.x - third2.x),
                            third2.y + share * (third1.y - third2.y)};
         const double size = std::abs(area), sign = area > 0.0 ? -1.0 : 1.0;
+        mesh_.area_px2 += size;
         Plane<C>& plane = planes_[idx(j * across_ + i)];
         plane.is_set = true;
         for (int k = 0; k < C; ++k) {
@@ -226,7 +227,9 @@ class Builder {
 
     void add_triangle(int a, int b, int c) {
         const int nodes[3] = {a, b, c};
-        Corner corners[most_corners] = {{{1, 0, 0}}, {{0, 1, 0}}, {{0, 0, 1}}};
+        Corner corners[most_corners];  // not cleared: this is the inner loop
+        for (int k = 0; k < 3; ++k)
+            for (int n = 0; n < 3; ++n) corners[k].share[n] = k == n ? 1.0 : 0.0;
         int count = 3;
         auto clip = [&](const std::vector<float>& clearance) {
             const double f[3] = {static_cast<double>(clearance[idx(a)]),
@@ -318,6 +321,7 @@ class Builder {
             centre.y += part * (polygon[0].y + polygon[k - 1].y + polygon[k].y) / 3.0;
         }
         const double size = std::abs(area);
+        mesh_.area_px2 += size;
         if (size < least_area_px2) return add_points(polygon, count, flux);
         centre.x /= area;
         centre.y /= area;
@@ -399,10 +403,13 @@ class Builder {
     }
 
     void emit(const Point& a, const Point& b, const Plane<C>& value) {
-        if (a.y == b.y || std::min(a.x, b.x) >= frame_.width_px + frame_edge ||
-            std::max(a.y, b.y) <= -frame_edge ||
+        if (a.y == b.y || std::max(a.y, b.y) <= -frame_edge ||
             std::min(a.y, b.y) >= frame_.height_px + frame_edge)
             return;
+        if (std::min(a.x, b.x) >= frame_.width_px + frame_edge) {
+            mesh_.reaches_past_right = true;
+            return;
+        }
         ColorEdge<C>& edge = mesh_.edges.emplace_back();
         edge.x0 = a.x;
         edge.y0 = a.y;

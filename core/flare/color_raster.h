@@ -43,20 +43,27 @@ struct RasterSize {
 
 /// Accumulates edges and points, given in full-size pixels, over a band of rows of a picture of
 /// any RasterSize, with exact area coverage: BandRaster for several channels, in the widest vectors
-/// that this machine has.
+/// that this machine has. Work goes with what is touched, not with the picture's size.
 template <int C>
 class ColorBand {
    public:
+    /// The accumulators belong to the thread: one band at a time on each.
     ColorBand(const RasterSize& size, int first_row, int row_count);
-    void add(std::span<const ColorEdge<C>> edges, std::span<const std::uint32_t> chosen);
+    /// `open_right`: edges right of the frame are missing, so that light may reach to its end.
+    void add(std::span<const ColorEdge<C>> edges, std::span<const std::uint32_t> chosen,
+             bool open_right = false);
     void add(const ColorPoint<C>& point);
-    /// Mean values of the pixels, C a pixel, row by row; clears the accumulators.
+    /// Writes the mean values of the pixels that were touched, C a pixel, row by row, and leaves
+    /// the others; clears the accumulators.
     void resolve(std::span<float> pixels);
 
    private:
     RasterSize size_;
     int first_row_, row_count_;
-    std::vector<RasterCell<C>> cells_;
+    int first_column_, last_column_;  ///< touched
+    std::vector<RasterCell<C>>& cells_;
+
+    void touch(double low, double high);
 };
 
 }  // namespace ghostlight

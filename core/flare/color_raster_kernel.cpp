@@ -154,19 +154,25 @@ namespace ghostlight::GHOSTLIGHT_JOIN(kernels_, GHOSTLIGHT_ISA) {
 
     template <int C>
     void resolve_all(const ResolveView<C>& view) {
-        float* out = view.pixels;
         for (int row = 0; row < view.row_count; ++row) {
             RasterCell<C>* cells = view.cells + static_cast<std::size_t>(row) *
                                                     static_cast<std::size_t>(view.width + 2);
+            float* out = view.pixels +
+                         (static_cast<std::size_t>(row) * static_cast<std::size_t>(view.width) +
+                          static_cast<std::size_t>(view.first_column)) *
+                             C;
             Value<C> level{}, slope{};
-            for (int i = 0; i < view.width; ++i) {
+            for (int i = view.first_column; i <= view.last_column; ++i) {
                 level += load<C>(cells[i].level);
                 slope += load<C>(cells[i].slope);
                 double value[C];
                 store<C>(load<C>(cells[i].now) + level + (i + 0.5) * slope, value);
                 for (int c = 0; c < C; ++c) *out++ = static_cast<float>(value[c]);
             }
-            __builtin_memset(cells, 0, static_cast<std::size_t>(view.width + 2) * sizeof *cells);
+            // Two more: an edge in the last column changes the next one, too.
+            __builtin_memset(
+                cells + view.first_column, 0,
+                static_cast<std::size_t>(view.last_column - view.first_column + 3) * sizeof *cells);
         }
     }
 

@@ -22,6 +22,7 @@ template <int C>
 struct ResolveView {
     RasterCell<C>* cells;
     int width, row_count;
+    int first_column, last_column;  ///< touched; the rest stays as it is
     float* pixels;
 };
 

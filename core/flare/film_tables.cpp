@@ -5,6 +5,7 @@
 
 #include "core/flare/film_tables_kernel.h"
 #include "core/instruction_set.h"
+#include "core/optics/hullin_2011.h"
 #include "core/parallel.h"
 
 namespace ghostlight {
@@ -18,15 +19,18 @@ void curve(const FilmCurveView& view) { GHOSTLIGHT_DISPATCH(film_curve, view); }
 
 }  // namespace
 
-FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threads)
+FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threads,
+                       CoatingModel model)
     : stride_((systems.size() + film_padding - 1) / film_padding * film_padding),
-      surfaces_(systems.front().surfaces.size()) {
+      surfaces_(turning_count(systems.front())) {
     const std::size_t table_size = static_cast<std::size_t>(nodes) * stride_;
     values_.assign(surfaces_ * tables_per_surface * table_size, 0.0F);
     invisible_.assign(surfaces_, true);
     for (std::size_t s = 0; s < surfaces_; ++s)
         for (const OpticalSystem& system : systems)
-            if (!is_invisible(system.surfaces[s].film)) invisible_[s] = false;
+            if (surface_at(system, s).uniform_reflectance ||
+                !is_invisible(surface_at(system, s).film))
+                invisible_[s] = false;
     std::vector<float> cosines(padded_nodes, 1.0F);
     for (int i = 0; i < nodes; ++i)
         cosines[static_cast<std::size_t>(i)] = static_cast<float>(i) / (nodes - 1);
@@ -37,7 +41,8 @@ FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threa
         std::vector<float> r(padded_nodes), t(padded_nodes);
         std::vector<LayerAt<float>> layers;
         for (std::size_t w = 0; w < systems.size(); ++w) {
-            const Film& own = systems[w].surfaces[surface].film;
+            const SurfaceAt& at = surface_at(systems[w], surface);
+            const Film& own = at.film;
             const Film film = forward ? own : reversed(own);
             layers.clear();
             for (const FilmLayer& layer : film.layers)
@@ -54,6 +59,18 @@ FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threa
                    .cosines = cosines.data(),
                    .reflectance = r.data(),
                    .transmittance = t.data()});
+            if (model == CoatingModel::hullin_2011) {
+                std::ranges::fill(t, 1.0F);
+                for (std::size_t i = 0; i < padded_nodes && film.layers.size() == 1; ++i)
+                    r[i] = static_cast<float>(
+                        hullin_2011_reflectance(static_cast<double>(cosines[i]), film.wavelength_nm,
+                                                film.layers.front().thickness_nm, film.n_in,
+                                                film.layers.front().n, film.n_out));
+            }
+            if (at.uniform_reflectance) {
+                std::ranges::fill(r, static_cast<float>(*at.uniform_reflectance));
+                std::ranges::fill(t, static_cast<float>(1.0 - *at.uniform_reflectance));
+            }
             for (const bool reflects : {false, true}) {
                 float* to = values_.data() + (table(surface, forward, reflects) - values_.data());
                 for (std::size_t i = 0; i < static_cast<std::size_t>(nodes); ++i)

@@ -8,6 +8,12 @@
 
 namespace ghostlight {
 
+/// How films are computed.
+enum class CoatingModel {
+    exact,        ///< the characteristic matrix, all transmissions, polarisation carried
+    hullin_2011,  ///< the formula of that paper's supplement at the reflections alone
+};
+
 /// Mean reflectance and transmittance of s and p at every surface of a lens, from both sides, at
 /// several wavelengths, over the cosine of incidence: linear between nodes, which for the films of
 /// lenses is good to 1e-3 of R. A ray's weights at all wavelengths then cost one look-up at each
@@ -15,7 +21,8 @@ namespace ghostlight {
 class FilmTables {
    public:
     /// `systems`: the lens at each wavelength, in one order.
-    FilmTables(const std::vector<OpticalSystem>& systems, unsigned threads);
+    FilmTables(const std::vector<OpticalSystem>& systems, unsigned threads,
+               CoatingModel model = CoatingModel::exact);
 
     /// Wavelengths, padded; those that were given come first.
     std::size_t stride() const { return stride_; }

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "core/flare/ghost_mesh.h"
+#include "core/flare/paraxial_flare.h"
 #include "core/flare/planned_flare.h"
 #include "core/ghosts/pupil.h"
 #include "core/ghosts/weighted_grid.h"
@@ -86,13 +88,47 @@ void add_band(const BandedMesh& banded, std::size_t band, BandRaster& raster) {
     }
 }
 
+/// Drops the ghosts with the least flux: their share in number, as the 2011 paper does.
+void cull_weakest(std::vector<BandedMesh>& meshes, const std::vector<SpectralSample>& samples,
+                  double share) {
+    const std::size_t ghosts = meshes.size() / samples.size();
+    std::vector<double> flux(ghosts, 0.0);
+    for (std::size_t t = 0; t < meshes.size(); ++t)
+        flux[t / samples.size()] += samples[t % samples.size()].weight * meshes[t].mesh.flux_mm2;
+    std::vector<std::size_t> order(ghosts);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t g) { return flux[g]; });
+    const auto count = static_cast<std::size_t>(share * static_cast<double>(ghosts));
+    for (std::size_t k = 0; k < std::min(count, ghosts); ++k)
+        for (std::size_t s = 0; s < samples.size(); ++s) meshes[order[k] * samples.size() + s] = {};
+}
+
+FlareScene compiled_scene(const Prescription& lens, const FlareRequest& request) {
+    return flare_scene(lens, request.spectrum, FlareScene::usual_samples, request.threads,
+                       request.coating_model);
+}
+
+/// The planned method traces half of each beam, turned into the y–z plane: the rectangle of a
+/// sensor that reflects has to be symmetric about that.
+bool can_be_planned(const Prescription& lens, const FlareRequest& request) {
+    return !lens.sensor.reflectance ||
+           std::abs(std::fmod(request.light.azimuth_deg, 180.0)) == 90.0;
+}
+
 }  // namespace
 
 std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequest& request,
                                        std::stop_token stop) {
-    if (request.method == FlareMethod::planned)
-        return render_planned(flare_scene(lens, request.spectrum, 16, request.threads), request,
-                              std::move(stop));
+    switch (request.method) {
+        case FlareMethod::planned:
+            if (!can_be_planned(lens, request)) break;
+            return render_planned(compiled_scene(lens, request), request, std::move(stop));
+        case FlareMethod::paraxial:
+            return render_paraxial(compiled_scene(lens, request), request, std::move(stop));
+        case FlareMethod::uniform:
+        case FlareMethod::reference:
+            break;
+    }
     return render_uniform(lens, request, std::move(stop));
 }
 
@@ -103,7 +139,8 @@ std::optional<FlareImage> render_uniform(const Prescription& lens, const FlareRe
     const auto colors = sample_colors(request.spectrum, samples);
     std::vector<OpticalSystem> systems;
     for (const SpectralSample& s : samples) systems.push_back(compile(lens, s.wavelength_nm));
-    const std::vector<GhostPath> ghosts = two_reflection_ghosts(systems.front());
+    const std::vector<GhostPath> ghosts =
+        request.only.empty() ? two_reflection_ghosts(systems.front()) : request.only;
     const BeamFrame frame = beam_frame(request.light);
     const PixelFrame pixels = pixel_frame(systems.front().sensor_width_mm,
                                           systems.front().sensor_height_mm, request.width_px);
@@ -155,6 +192,8 @@ std::optional<FlareImage> render_uniform(const Prescription& lens, const FlareRe
     });
     if (!finished) return std::nullopt;
     image.times.trace_ms = ms_since(traced);
+
+    cull_weakest(meshes, samples, request.culled);
 
     const auto rastered = Clock::now();
     const std::size_t count =

@@ -16,8 +16,9 @@ namespace ghostlight {
 
 /// How a picture is made.
 enum class FlareMethod {
-    planned,  ///< the least work for a tolerance
-    uniform,  ///< every ghost at every wavelength on a grid of its own (Hullin et al. 2011)
+    planned,   ///< the least work for a tolerance
+    paraxial,  ///< to first order (Lee and Eisemann 2013)
+    uniform,   ///< every ghost at every wavelength on a grid of its own (Hullin et al. 2011)
     /// `uniform`, with the thorough search for pupils: what the others are compared with.
     reference,
 };
@@ -29,10 +30,14 @@ struct FlareRequest {
     FlareMethod method = FlareMethod::planned;
     /// planned: L1 error of the ghost layer's irradiance on the sensor, relative to its light.
     double tolerance = 0.02;
-    int width_px = 1280;       ///< the height follows from the sensor's shape
+    int width_px = 1280;  ///< the height follows from the sensor's shape
+    CoatingModel coating_model = CoatingModel::exact;  ///< planned and paraxial
     double bend_px = 0.2;      ///< each ghost's grid is as fine as keeps its map bilinear to this
-    int grid = 0;              ///< cells across every ghost's pupil; 0 = by bend_px
+    int grid = 0;              ///< uniform: cells across every ghost's pupil; 0 = by bend_px
+    double culled = 0.0;       ///< uniform: share of the ghosts, the weakest, that is not drawn
     int spectral_samples = 5;  ///< used when the light is not of one wavelength
+    /// Draw these paths alone, by `uniform`; empty = all ghosts.
+    std::vector<GhostPath> only;
     std::vector<GhostPath> highlighted;  ///< these ghosts also go into FlareImage::highlight
     unsigned threads = 0;
 };

@@ -43,10 +43,17 @@ struct FlarePlan {
     std::size_t count(GhostFate fate) const;
 };
 
-/// Shares an error out among ghosts. With the cost of a ghost falling as 1/error, the least work
-/// for a given sum of errors has each error in proportion to the root of what it multiplies, here
-/// the flux; none exceeds `most_share` of its ghost, so that faint ghosts stay recognisable.
-std::vector<double> share_out(const std::vector<double>& flux_mm2, double error_mm2,
+/// What an error is shared out by.
+struct ErrorShare {
+    double flux_mm2 = 0.0;
+    double difficulty_mm2 = 0.0;  ///< error of a plain drawing
+};
+
+/// Shares an error out among ghosts. With the cost of a ghost falling as difficulty / error, the
+/// least work for a given sum of errors has each error in proportion to the root of what it
+/// multiplies: the light itself, for the picture's size, and the first look's errors, for grids and
+/// bands. None exceeds `most_share` of its ghost's light, so that faint ghosts stay recognisable.
+std::vector<double> share_out(const std::vector<ErrorShare>& ghosts, double error_mm2,
                               double most_share);
 
 }  // namespace ghostlight

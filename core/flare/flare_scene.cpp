@@ -3,6 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/flare/color_raster.h"
+#include "core/flare/grid_light.h"
+
 namespace ghostlight {
 namespace {
 
@@ -43,7 +46,7 @@ std::vector<double> FlareScene::interpolation(double wavelength_nm) const {
 }
 
 FlareScene flare_scene(const Prescription& lens, const Spectrum& spectrum, int spectral_samples,
-                       unsigned threads) {
+                       unsigned threads, CoatingModel model) {
     const auto samples = sample(spectrum, spectral_samples);
     std::vector<double> weight_nm;
     for (const SpectralSample& s : samples) weight_nm.push_back(s.wavelength_nm);
@@ -57,8 +60,25 @@ FlareScene flare_scene(const Prescription& lens, const Spectrum& spectrum, int s
             .colors = sample_colors(spectrum, samples),
             .geometry = std::move(geometry),
             .main = main,
-            .films = FilmTables(compiled(lens, weight_nm), threads),
+            .coating_model = model,
+            .films = FilmTables(compiled(lens, weight_nm), threads, model),
             .ghosts = std::move(ghosts)};
 }
+
+template <int C>
+std::vector<float> channel_shares(const FlareScene& scene, int band, int bands) {
+    const ColorAxis axis(scene.samples);
+    std::vector<float> shares;
+    for (std::size_t w = 0; w < scene.samples.size(); ++w) {
+        const SpectralSample& s = scene.samples[w];
+        const double weight = s.weight * band_weight(axis.at(s.wavelength_nm), band, bands);
+        const double color[4] = {scene.colors[w].r, scene.colors[w].g, scene.colors[w].b, 1.0};
+        for (int c = 0; c < C; ++c)
+            shares.push_back(static_cast<float>(weight * color[C == gray_channels ? 3 : c]));
+    }
+    return shares;
+}
+template std::vector<float> channel_shares<gray_channels>(const FlareScene&, int, int);
+template std::vector<float> channel_shares<color_channels>(const FlareScene&, int, int);
 
 }  // namespace ghostlight

@@ -14,6 +14,9 @@ namespace ghostlight {
 /// A lens and the spectrum of its light, compiled for pictures: what does not change while the
 /// light moves.
 struct FlareScene {
+    /// Samples of a spectrum that keep colours within 1 %.
+    static constexpr int usual_samples = 16;
+
     Spectrum spectrum;
     std::vector<SpectralSample> samples;  ///< where weights are evaluated
     std::vector<Rgb> colors;              ///< of the samples
@@ -22,6 +25,7 @@ struct FlareScene {
     /// matter.
     std::vector<OpticalSystem> geometry;
     std::size_t main = 0;
+    CoatingModel coating_model = CoatingModel::exact;
     FilmTables films;
     std::vector<GhostPath> ghosts;
 
@@ -33,6 +37,12 @@ struct FlareScene {
 
 /// Compiles. Throws Error like compile().
 FlareScene flare_scene(const Prescription& lens, const Spectrum& spectrum,
-                       int spectral_samples = 16, unsigned threads = 0);
+                       int spectral_samples = FlareScene::usual_samples, unsigned threads = 0,
+                       CoatingModel model = CoatingModel::exact);
+
+/// What each spectral sample gives to each channel of a band (grid_light.h): C values a sample,
+/// linear Rec.709 and irradiance, or irradiance alone.
+template <int C>
+std::vector<float> channel_shares(const FlareScene& scene, int band, int bands);
 
 }  // namespace ghostlight

@@ -34,11 +34,11 @@ Between between(int fine, int fine_margin, int coarse_margin, int coarse_count) 
 
 }  // namespace
 
+template <int C>
 void add_coarser_rows(const std::vector<float>& coarser, const RasterSize& coarser_size,
-                      const RasterSize& finer_size, int channels, int first_row, int last_row,
+                      const RasterSize& finer_size, int first_row, int last_row,
                       std::vector<float>& finer) {
-    const std::size_t stride =
-        static_cast<std::size_t>(coarser_size.width_px) * static_cast<std::size_t>(channels);
+    const std::size_t stride = static_cast<std::size_t>(coarser_size.width_px) * C;
     std::vector<Between> columns;
     for (int column = 0; column < finer_size.width_px; ++column)
         columns.push_back(
@@ -52,13 +52,19 @@ void add_coarser_rows(const std::vector<float>& coarser, const RasterSize& coars
         for (std::size_t i = 0; i < stride; ++i)
             mixed[i] = below[i] + rows.share_high * (above[i] - below[i]);
         float* to = finer.data() + static_cast<std::size_t>(row) *
-                                       static_cast<std::size_t>(finer_size.width_px * channels);
+                                       static_cast<std::size_t>(finer_size.width_px * C);
         for (const Between& at : columns) {
-            const float* a = mixed.data() + at.low * channels;
-            const float* b = mixed.data() + at.high * channels;
-            for (int c = 0; c < channels; ++c) *to++ += a[c] + at.share_high * (b[c] - a[c]);
+            const float* a = mixed.data() + at.low * C;
+            const float* b = mixed.data() + at.high * C;
+            for (int c = 0; c < C; ++c) to[c] += a[c] + at.share_high * (b[c] - a[c]);
+            to += C;
         }
     }
 }
+
+template void add_coarser_rows<gray_channels>(const std::vector<float>&, const RasterSize&,
+                                              const RasterSize&, int, int, std::vector<float>&);
+template void add_coarser_rows<color_channels>(const std::vector<float>&, const RasterSize&,
+                                               const RasterSize&, int, int, std::vector<float>&);
 
 }  // namespace ghostlight

@@ -20,8 +20,9 @@ double blur_px(int level);
 
 /// Adds the next coarser level to rows of `finer`, by linear interpolation: light is conserved.
 /// Rows count from the bottom of the finer picture, its margin included.
+template <int C>
 void add_coarser_rows(const std::vector<float>& coarser, const RasterSize& coarser_size,
-                      const RasterSize& finer_size, int channels, int first_row, int last_row,
+                      const RasterSize& finer_size, int first_row, int last_row,
                       std::vector<float>& finer);
 
 }  // namespace ghostlight

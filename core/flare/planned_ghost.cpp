@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/flare/ghost_measures.h"
+#include "core/flare/grid_light.h"
 #include "core/flare/picture_levels.h"
 #include "core/parallel.h"
 #include "core/units.h"
@@ -11,14 +13,17 @@
 namespace ghostlight {
 namespace {
 
-constexpr double most_share = 0.5;  ///< of a ghost's own light, that its error may reach
+/// Errors of ghosts cancel in part where they overlap, and the estimates are cautious: what is
+/// granted in all, over what is asked.
+constexpr double granted_share = 0.5;
+constexpr double most_share = 0.5;  ///< of a ghost's own light
 constexpr int probe_cells = 12;
 constexpr int close_cells = 48;          ///< where hardly a ray of a probe passes
 constexpr std::size_t few_passing = 12;  ///< of a probe's nodes
 constexpr int finest_cells = 256;
 constexpr int most_bands = 24;
 /// How a ghost's allowance is shared among what its picture gets wrong.
-constexpr double level_share = 0.5, grid_share = 0.2, band_share = 0.15, weight_share = 0.15;
+constexpr double level_share = 0.45, grid_share = 0.2, band_share = 0.2, weight_share = 0.15;
 /// Singular cells are split in ghosts that have this many times the light of their allowance.
 constexpr double split_above = 5.0;
 constexpr int split_cells = 4;        ///< across a singular cell
@@ -27,8 +32,9 @@ constexpr int most_rough_cells = 96;  ///< for the weights' sake
 /// is at rims, where chords follow the bend. Calibrated on all bundled lenses, see
 /// docs/benchmarks.md.
 constexpr double grid_factor = 0.3;
-/// Light beyond the rim that a bend may be measured on, in units of a clearance.
-constexpr double near_rim = -0.15;
+/// Of the shift between the outer geometry wavelengths times the contrast: most of the light lies
+/// well within them, and shifts along a rim do not matter. Calibrated likewise.
+constexpr double merging_factor = 0.02;
 
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 
@@ -42,232 +48,6 @@ double saturated(double error_mm2, double flux_mm2) {
 double unsaturated(double allowed_mm2, double flux_mm2) {
     const double most = 2.0 * flux_mm2;
     return allowed_mm2 < most ? allowed_mm2 * most / (most - allowed_mm2) : 1e300;
-}
-
-/// 0 at the longest wavelength of the samples, 1 at the shortest, linear in 1/λ²: lateral colour
-/// is nearly linear in it.
-struct ColorAxis {
-    double low, span;
-    explicit ColorAxis(const std::vector<SpectralSample>& samples) {
-        const double first = inverse_square(samples.front().wavelength_nm);
-        const double last = inverse_square(samples.back().wavelength_nm);
-        low = std::min(first, last);
-        span = std::abs(last - first);
-    }
-    static double inverse_square(double nm) { return 1.0 / (nm * nm); }
-    double at(double nm) const { return span > 0.0 ? (inverse_square(nm) - low) / span : 0.5; }
-    double wavelength_nm(double t) const { return 1.0 / std::sqrt(low + t * span); }
-};
-
-/// What a band takes of a sample at `t`: hats about the bands' middles that add up to 1.
-double band_weight(double t, int band, int bands) {
-    const double at = std::clamp(t * bands - 0.5, 0.0, bands - 1.0);
-    return std::max(0.0, 1.0 - std::abs(at - band));
-}
-
-/// Failed rays of a half grid take the mean of their valid neighbours, so that rims are not dark.
-void fill_failed(const MirrorGrid& grid, int channels, std::vector<float>& values) {
-    const int across = grid.half_side(), rows = grid.side();
-    for (int j = 0; j < rows; ++j)
-        for (int i = 0; i < across; ++i) {
-            const int k = j * across + i;
-            if (grid.half.margin[idx(k)] >= 0.0F) continue;
-            int count = 0;
-            for (int c = 0; c < channels; ++c) values[idx(k * channels + c)] = 0.0F;
-            for (int n = std::max(0, j - 1); n <= std::min(rows - 1, j + 1); ++n)
-                for (int m = std::max(0, i - 1); m <= std::min(across - 1, i + 1); ++m) {
-                    const int other = n * across + m;
-                    if (grid.half.margin[idx(other)] < 0.0F) continue;
-                    ++count;
-                    for (int c = 0; c < channels; ++c)
-                        values[idx(k * channels + c)] += values[idx(other * channels + c)];
-                }
-            for (int c = 0; c < channels && count > 0; ++c)
-                values[idx(k * channels + c)] /= static_cast<float>(count);
-        }
-}
-
-/// Makes the mean of a cell's corners the mean over the cell, to fourth order: the second
-/// differences tell how far the one is above the other.
-void correct_means(const MirrorGrid& grid, int channels, std::vector<float>& values) {
-    const std::vector<float> given = values;
-    const int across = grid.half_side(), rows = grid.side();
-    auto at = [&](int i, int j, int c) {
-        return given[idx((j * across + std::abs(i)) * channels + c)];
-    };
-    for (int j = 0; j < rows; ++j)
-        for (int i = 0; i < across; ++i) {
-            const int m = std::min(i, across - 2), n = std::clamp(j, 1, rows - 2);
-            for (int c = 0; c < channels; ++c) {
-                const float along = at(m - 1, j, c) - 2.0F * at(m, j, c) + at(m + 1, j, c);
-                const float up = at(i, n - 1, c) - 2.0F * at(i, n, c) + at(i, n + 1, c);
-                const float own = at(i, j, c);
-                // Where the correction is large the values are too rough for it.
-                values[idx((j * across + i) * channels + c)] =
-                    own -
-                    std::clamp((along + up) / 12.0F, -0.2F * std::abs(own), 0.2F * std::abs(own));
-            }
-        }
-}
-
-/// Values of a half grid at the nodes of a full grid over the same box, bilinearly.
-void interpolate(const MirrorGrid& from, const std::vector<float>& values, int channels, int cells,
-                 std::vector<float>& nodes) {
-    const int across = from.half_side(), side = cells + 1;
-    nodes.resize(idx(side * side * channels));
-    for (int j = 0; j < side; ++j) {
-        const float y = static_cast<float>(j * from.cells) / static_cast<float>(cells);
-        const int j0 = std::min(static_cast<int>(y), from.cells - 1);
-        const float fy = y - static_cast<float>(j0);
-        for (int i = 0; i < side; ++i) {
-            const float x =
-                std::abs(static_cast<float>(i * from.cells) / static_cast<float>(cells) -
-                         0.5F * static_cast<float>(from.cells));
-            const int i0 = std::min(static_cast<int>(x), across - 2);
-            const float fx = x - static_cast<float>(i0);
-            const float* low = values.data() + (j0 * across + i0) * channels;
-            const float* high = low + across * channels;
-            float* to = nodes.data() + (j * side + i) * channels;
-            for (int c = 0; c < channels; ++c)
-                to[c] = std::lerp(std::lerp(low[c], low[channels + c], fx),
-                                  std::lerp(high[c], high[channels + c], fx), fy);
-        }
-    }
-}
-
-bool is_within(const MeshNodes& nodes, std::size_t k, double least) {
-    return nodes.margin[k] >= 0.0F && std::ranges::all_of(nodes.clearances, [&](const auto& c) {
-               return static_cast<double>(c[k]) >= least;
-           });
-}
-
-/// How far a grid's nodes are from the means of their neighbours, RMS over what passes and lands
-/// near the frame: what a grid twice as coarse gets wrong, hence four times what this one does.
-double bend_px(const MeshNodes& nodes, const PixelFrame& frame) {
-    const int side = nodes.cells + 1;
-    const double reach = 0.5 * std::hypot(frame.width_px, frame.height_px);
-    double square = 0.0;
-    int count = 0;
-    auto look = [&](int k, int step) {
-        for (const int n : {k - step, k, k + step})
-            if (!is_within(nodes, idx(n), near_rim)) return;
-        const auto at = [&](const std::vector<float>& values, int n) {
-            return static_cast<double>(values[idx(n)]);
-        };
-        if (std::hypot(at(nodes.column, k) - 0.5 * frame.width_px,
-                       at(nodes.row, k) - 0.5 * frame.height_px) > reach)
-            return;
-        for (const auto* values : {&nodes.column, &nodes.row}) {
-            const double off =
-                at(*values, k) - 0.5 * (at(*values, k - step) + at(*values, k + step));
-            square += off * off;
-        }
-        ++count;
-    };
-    for (int j = 0; j < side; ++j)
-        for (int i = 1; i < side; i += 2) {
-            look(j * side + i, 1);
-            look(i * side + j, side);
-        }
-    return count > 0 ? 0.25 * std::sqrt(square / count) : 0.0;
-}
-
-/// The same of a half grid's light, as a share of it.
-double roughness(const MirrorGrid& grid, const std::vector<float>& light) {
-    const int across = grid.half_side();
-    double change = 0.0, sum = 0.0;
-    auto look = [&](int k, int step) {
-        for (const int n : {k - step, k, k + step})
-            if (grid.half.margin[idx(n)] < 0.0F || grid.half.r_rel[idx(n)] > 1.0F) return;
-        change += std::abs(static_cast<double>(
-            light[idx(k)] - 0.5F * (light[idx(k - step)] + light[idx(k + step)])));
-        sum += static_cast<double>(light[idx(k)]);
-    };
-    for (int j = 0; j < grid.side(); ++j)
-        for (int i = 1; i + 1 < across; i += 2) look(j * across + i, 1);
-    for (int j = 1; j + 1 < grid.side(); j += 2)
-        for (int i = 0; i < across; ++i) look(j * across + i, across);
-    return sum > 0.0 ? 0.25 * change / sum : 0.0;
-}
-
-/// Cells, of the half with u ≥ 0, beside failing rays or the onset of total reflection, unless
-/// something else stops all their light: there map and weight go as a square root.
-std::vector<int> singular_cells(const MirrorGrid& grid, const MeshNodes& nodes) {
-    std::vector<int> cells;
-    const int side = grid.side();
-    for (int j = 0; j < grid.cells; ++j)
-        for (int i = grid.cells / 2; i < grid.cells; ++i) {
-            const std::size_t rays[4] = {grid.of_node(i, j), grid.of_node(i + 1, j),
-                                         grid.of_node(i, j + 1), grid.of_node(i + 1, j + 1)};
-            auto range = [&](const std::vector<float>& values) {
-                float low = values[rays[0]], high = low;
-                for (const std::size_t k : rays) {
-                    low = std::min(low, values[k]);
-                    high = std::max(high, values[k]);
-                }
-                return std::pair{low, high};
-            };
-            const auto [low, high] = range(grid.half.margin);
-            if (high < 0.0F) continue;
-            bool singular = low <= high - low;
-            for (const auto& onset : grid.half.onset) {
-                const auto [least, most] = range(onset);
-                singular = singular || (least <= most - least && most >= least - most);
-            }
-            if (!singular) continue;
-            const bool stopped = std::ranges::any_of(nodes.clearances, [&](const auto& clearance) {
-                float least = 1e30F, most = -1e30F;
-                for (const int k : {0, 1, side, side + 1}) {
-                    const float value = clearance[idx(j * side + i + k)];
-                    least = std::min(least, value);
-                    most = std::max(most, value);
-                }
-                return most + 0.5F * (most - least) < 0.0F;
-            });
-            if (!stopped) cells.push_back(j * grid.cells + i);
-        }
-    return cells;
-}
-
-/// What a probe says of the light that a ghost brings to the frame.
-struct FrameLight {
-    double flux_mm2 = 0.0;
-    bool passes = false, near_frame = false;
-};
-FrameLight light_on_frame(const MeshNodes& nodes, const PixelFrame& frame) {
-    /// A cell about the whole frame has no corner on it.
-    constexpr double least_on_frame = 0.1;
-    FrameLight light;
-    const int side = nodes.cells + 1;
-    const auto width = static_cast<float>(frame.width_px);
-    const auto height = static_cast<float>(frame.height_px);
-    std::vector<char> inside(idx(side * side));
-    for (std::size_t k = 0; k < inside.size(); ++k)
-        inside[k] = static_cast<char>(is_within(nodes, k, 0.0));
-    for (int j = 0; j < nodes.cells; ++j)
-        for (int i = 0; i < nodes.cells; ++i) {
-            const int a = j * side + i;
-            int passing = 0, on_frame = 0;
-            float left = 1e30F, right = -1e30F, low = 1e30F, high = -1e30F;
-            double weight = 0.0;
-            for (const int k : {a, a + 1, a + side, a + side + 1}) {
-                passing += inside[idx(k)];
-                const float x = nodes.column[idx(k)], y = nodes.row[idx(k)];
-                left = std::min(left, x);
-                right = std::max(right, x);
-                low = std::min(low, y);
-                high = std::max(high, y);
-                on_frame += x > 0.0F && y > 0.0F && x < width && y < height ? 1 : 0;
-                weight += 0.25 * static_cast<double>(nodes.weights[idx(k)]);
-            }
-            if (passing == 0) continue;
-            light.passes = true;
-            if (right < 0.0F || high < 0.0F || left > width || low > height) continue;
-            light.near_frame = true;
-            light.flux_mm2 += weight * 0.25 * passing * nodes.cell_area_mm2 *
-                              std::max(0.25 * on_frame, least_on_frame);
-        }
-    return light;
 }
 
 }  // namespace
@@ -376,7 +156,8 @@ std::vector<float> GhostPlanner::weigh(const TracePath<float>& trace,
     // Polarisation: its effect on the whole path, at one wavelength, ray by ray.
     const Bundle<float>& rays = grid.half;
     const std::size_t stride = scene_.films.stride();
-    for (std::size_t k = 0; k < rays.size(); ++k) {
+    const bool exact = scene_.coating_model == CoatingModel::exact;
+    for (std::size_t k = 0; exact && k < rays.size(); ++k) {
         const float average = rays.weight_average[k];
         const float ratio = average > 0.0F ? rays.weight[k] / average : 0.0F;
         for (std::size_t w = 0; w < stride; ++w) weights[k * stride + w] *= ratio;
@@ -397,7 +178,6 @@ ProbedGhost GhostPlanner::probe(const GhostPath& path) const {
         return result;
     }
     planned.box = probe.grid.box;
-    planned.cells = probe_cells;
     result.weights = weigh(trace, probe.grid);
     for (std::size_t g = 0; g < scene_.geometry.size(); ++g) {
         if (g == scene_.main) {
@@ -412,41 +192,26 @@ ProbedGhost GhostPlanner::probe(const GhostPath& path) const {
     }
 
     const MirrorGrid& grid = result.grids[scene_.main];
-    MeshNodes nodes;
+    MirrorGrid closer;
     if (probe.passing < few_passing) {
-        planned.cells = close_cells;
-        MirrorGrid closer{planned.box, close_cells, {}};
-        trace_mirrored(trace, beam_, Weights::none, closer);
+        closer = traced(planned, scene_.main, close_cells, Weights::none);
         planned.rays += closer.half.size();
-        nodes = place(closer);
-    } else {
-        nodes = place(grid);
     }
-    interpolate(grid,
-                light_of<gray_channels>(grid, result.weights, channel_shares<gray_channels>(0, 1)),
-                1, nodes.cells, nodes.weights);
+    const MirrorGrid& first = closer.cells > 0 ? closer : grid;
+    MeshNodes nodes = place(first);
+    interpolate(
+        grid,
+        light_of<gray_channels>(grid, result.weights, channel_shares<gray_channels>(scene_, 0, 1)),
+        1, nodes.cells, nodes.weights);
     const FrameLight light = light_on_frame(nodes, frame_);
     planned.flux_mm2 = light.flux_mm2;
     if (!light.passes)
         planned.fate = GhostFate::nothing_passes;
     else if (!light.near_frame)
         planned.fate = GhostFate::off_sensor;
+    else
+        look(first, nodes, result);
     return result;
-}
-
-/// What each spectral sample gives to each channel of a band.
-template <int C>
-std::vector<float> GhostPlanner::channel_shares(int band, int bands) const {
-    const ColorAxis axis(scene_.samples);
-    std::vector<float> shares;
-    for (std::size_t w = 0; w < scene_.samples.size(); ++w) {
-        const SpectralSample& s = scene_.samples[w];
-        const double weight = s.weight * band_weight(axis.at(s.wavelength_nm), band, bands);
-        const double color[4] = {scene_.colors[w].r, scene_.colors[w].g, scene_.colors[w].b, 1.0};
-        for (int c = 0; c < C; ++c)
-            shares.push_back(static_cast<float>(weight * color[C == 1 ? 3 : c]));
-    }
-    return shares;
 }
 
 /// Light per E0 in each channel, ray by ray of a half grid, made ready for interpolation.
@@ -478,8 +243,9 @@ void GhostPlanner::draw_grids(const std::vector<const MirrorGrid*>& geometry,
     const ColorAxis axis(scene_.samples);
     for (int band = 0; band < bands; ++band) {
         MeshNodes nodes = at_wavelength(placed, axis.wavelength_nm((band + 0.5) / bands));
-        interpolate(weight_grid, light_of<C>(weight_grid, weights, channel_shares<C>(band, bands)),
-                    C, nodes.cells, nodes.weights);
+        interpolate(weight_grid,
+                    light_of<C>(weight_grid, weights, channel_shares<C>(scene_, band, bands)), C,
+                    nodes.cells, nodes.weights);
         if (!singular.empty()) {
             nodes.skipped.assign(idx(nodes.cells * nodes.cells), 0);
             for (const int cell : singular) {
@@ -492,7 +258,8 @@ void GhostPlanner::draw_grids(const std::vector<const MirrorGrid*>& geometry,
     }
     if (!singular.empty())
         draw_singular(main, singular, weight_grid,
-                      light_of<C>(weight_grid, weights, channel_shares<C>(0, 1)), planned, mesh);
+                      light_of<C>(weight_grid, weights, channel_shares<C>(scene_, 0, 1)), planned,
+                      mesh);
 }
 
 /// Traces singular cells of the half with u ≥ 0 on grids of their own, with films and polarisation
@@ -553,204 +320,201 @@ void GhostPlanner::draw_singular(const MirrorGrid& grid, const std::vector<int>&
         }
 }
 
-GhostPlanner::Fineness GhostPlanner::choose(const ProbedGhost& ghost, const MirrorGrid& first,
-                                            double contrast) const {
-    const PlannedGhost& planned = ghost.planned;
-    const double flux = std::max(planned.flux_mm2, 1e-300);
-    const MirrorGrid& probe = ghost.grids[scene_.main];
-    Fineness fineness;
-    // The grid: the error of a bilinear map falls fourfold on doubling it.
-    double grid_error = grid_factor * contrast * bend_px(place(first), frame_);
-    const double grid_allowed =
-        std::max(unsaturated(grid_share * planned.allowance_mm2, flux), 1e-300);
-    fineness.cells = planned.cells;
-    if (grid_error > grid_allowed)
-        fineness.cells = std::min(
-            finest_cells, 4 * static_cast<int>(std::ceil(0.25 * planned.cells *
-                                                         std::sqrt(grid_error / grid_allowed))));
-
-    // The bands: what is left of the shift of colours. Light is spread over about the shift between
-    // the outer nodes, and lands a quarter of a band's share of it from where it should on average.
-    const double shift_px = scene_.geometry.size() > 1 ? color_shift_px(ghost) : 0.0;
-    const double band_error = 0.25 * shift_px * contrast;
-    const double band_allowed =
-        std::max(unsaturated(band_share * planned.allowance_mm2, flux), 1e-300);
-    fineness.bands =
-        std::clamp(static_cast<int>(std::ceil(band_error / band_allowed)), 1, most_bands);
-
-    // The weights: from the probe where they are smooth, else traced on the grid itself; where rays
-    // begin to fail or reflect totally, on a grid for each cell.
-    const double weight_allowed = weight_share * planned.allowance_mm2;
-    double weight_error =
-        flux * roughness(probe, light_of<gray_channels>(probe, ghost.weights,
-                                                        channel_shares<gray_channels>(0, 1)));
-    fineness.rough = weight_error > weight_allowed;
-    if (fineness.rough)
-        fineness.cells = std::max(
-            fineness.cells,
-            std::min(most_rough_cells,
-                     4 * static_cast<int>(std::ceil(0.25 * probe_cells *
-                                                    std::sqrt(weight_error / weight_allowed)))));
-    fineness.split =
-        flux > split_above * planned.allowance_mm2 && !singular_cells(probe, place(probe)).empty();
-
-    const double finer = static_cast<double>(planned.cells) / fineness.cells;
-    grid_error *= finer * finer;
-    if (fineness.rough)
-        weight_error *=
-            static_cast<double>(probe_cells * probe_cells) / (fineness.cells * fineness.cells);
-    fineness.error_mm2 = saturated(grid_error, flux) +
-                         saturated(band_error / fineness.bands, flux) +
-                         std::min(weight_error, flux);
-    return fineness;
-}
-
-void GhostPlanner::choose_level(const Fineness& fineness, double contrast,
-                                PlannedGhost& planned) const {
-    const double flux = std::max(planned.flux_mm2, 1e-300);
-    const double allowed =
-        std::max(planned.allowance_mm2 - fineness.error_mm2, level_share * planned.allowance_mm2);
-    auto level_error = [&](int level) { return saturated(blur_px(level) * contrast, flux); };
-    planned.level = 0;
-    while (planned.level + 1 < picture_levels && level_error(planned.level + 1) <= allowed)
-        ++planned.level;
-    planned.error_mm2 = fineness.error_mm2 + level_error(planned.level);
-}
-
-MirrorGrid GhostPlanner::trace_grid(std::size_t node, int cells, Weights weights,
-                                    PlannedGhost& planned) const {
+MirrorGrid GhostPlanner::traced(const PlannedGhost& planned, std::size_t node, int cells,
+                                Weights weights) const {
     MirrorGrid grid{planned.box, cells, {}};
     grid.half.keep_cosines = weights != Weights::none;
     trace_mirrored(trace_path<float>(scene_.geometry[node], planned.path), beam_, weights, grid);
-    planned.rays += grid.half.size();
     return grid;
+}
+
+/// What a plain drawing of the first grid would get wrong.
+void GhostPlanner::look(const MirrorGrid& first, const MeshNodes& nodes, ProbedGhost& ghost) const {
+    const double pixel_mm2 = frame_.pixel_area_mm2();
+    ColorMesh<gray_channels> mesh;
+    add_grid(nodes, frame_, mesh);
+    const double contrast = mesh.edge_contrast * pixel_mm2;
+    FirstErrors& errors = ghost.errors;
+    errors.contrast_mm2 = contrast;
+    errors.cells = first.cells;
+    errors.area_px2 = mesh.area_px2;
+    // The error of a bilinear map falls fourfold on doubling the grid.
+    errors.grid_mm2 = grid_factor * contrast * bend_px(nodes, frame_);
+    if (scene_.geometry.size() > 1)
+        errors.merging_mm2 = merging_factor * contrast *
+                             shift_px(place(ghost.grids.front()), place(ghost.grids.back()));
+    const MirrorGrid& probe = ghost.grids[scene_.main];
+    errors.weight_mm2 =
+        ghost.planned.flux_mm2 *
+        roughness(probe, light_of<gray_channels>(probe, ghost.weights,
+                                                 channel_shares<gray_channels>(scene_, 0, 1)));
+}
+
+namespace {
+
+/// Cells for which an error that falls fourfold on doubling them comes down to what is allowed.
+int cells_for(int cells, double error_mm2, double allowed_mm2) {
+    if (error_mm2 <= allowed_mm2) return cells;
+    constexpr int most = 1024;
+    const double wanted = cells * std::sqrt(error_mm2 / std::max(allowed_mm2, 1e-300));
+    return wanted < most ? 4 * static_cast<int>(std::ceil(0.25 * wanted)) : most;
+}
+
+}  // namespace
+
+GhostPlanner::Fineness GhostPlanner::choose(const ProbedGhost& ghost) const {
+    const PlannedGhost& planned = ghost.planned;
+    const FirstErrors& first = ghost.errors;
+    const double flux = std::max(planned.flux_mm2, 1e-300);
+    // A ghost of full size leaves its share for blurring to the others.
+    const bool full_size =
+        saturated(blur_px(1) * first.contrast_mm2, flux) > level_share * planned.allowance_mm2;
+    const double spread =
+        full_size ? planned.allowance_mm2 / (1.0 - level_share) : planned.allowance_mm2;
+    auto allowed = [&](double share) { return unsaturated(share * spread, flux); };
+
+    Fineness chosen;
+    // Cells below half a pixel show nothing more.
+    const int finest = std::clamp(static_cast<int>(2.0 * std::sqrt(first.area_px2)),
+                                  2 * first.cells, finest_cells);
+    chosen.cells = std::min(finest, cells_for(first.cells, first.grid_mm2, allowed(grid_share)));
+    // Bands overlap by hats, so that what is left of merging falls fourfold on doubling them.
+    chosen.bands = std::clamp(
+        static_cast<int>(std::ceil(
+            std::sqrt(std::min(first.merging_mm2 / std::max(allowed(band_share), 1e-300), 1e6)))),
+        1, most_bands);
+    // Weights come from the probe where they are smooth, else they are traced on the grid itself;
+    // where rays begin to fail or reflect totally, on a grid for each cell.
+    const double weight_allowed = weight_share * spread;
+    chosen.rough = first.weight_mm2 > weight_allowed;
+    if (chosen.rough)
+        chosen.cells = std::max(
+            chosen.cells,
+            std::min(most_rough_cells, cells_for(probe_cells, first.weight_mm2, weight_allowed)));
+    const MirrorGrid& probe = ghost.grids[scene_.main];
+    chosen.split = scene_.coating_model == CoatingModel::exact &&
+                   flux > split_above * planned.allowance_mm2 &&
+                   !singular_cells(probe, place(probe)).empty();
+
+    auto fallen = [](double error, int from, int to) {
+        return error * static_cast<double>(from * from) / (to * to);
+    };
+    chosen.error_mm2 =
+        saturated(fallen(first.grid_mm2, first.cells, chosen.cells), flux) +
+        saturated(fallen(first.merging_mm2, 1, chosen.bands), flux) +
+        std::min(flux, chosen.rough ? fallen(first.weight_mm2, probe_cells, chosen.cells)
+                                    : first.weight_mm2);
+    return chosen;
+}
+
+void GhostPlanner::choose_level(const Fineness& chosen, double contrast_mm2,
+                                PlannedGhost& planned) const {
+    const double flux = std::max(planned.flux_mm2, 1e-300);
+    const double allowed =
+        std::max(planned.allowance_mm2 - chosen.error_mm2, level_share * planned.allowance_mm2);
+    auto level_error = [&](int level) { return saturated(blur_px(level) * contrast_mm2, flux); };
+    planned.level = 0;
+    while (planned.level + 1 < picture_levels && level_error(planned.level + 1) <= allowed)
+        ++planned.level;
+    planned.error_mm2 = chosen.error_mm2 + level_error(planned.level);
 }
 
 template <int C>
 void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
     PlannedGhost& planned = ghost.planned;
-    const double pixel_mm2 = frame_.pixel_area_mm2();
-    const MirrorGrid& probe = ghost.grids[scene_.main];
-    MirrorGrid closer;
-    if (planned.cells != probe_cells)
-        closer = trace_grid(scene_.main, planned.cells, Weights::none, planned);
-    const MirrorGrid& first = planned.cells == probe_cells ? probe : closer;
-    draw_grids({&first}, probe, ghost.weights, 1, false, planned, mesh);
-    const Fineness fineness = choose(ghost, first, mesh.edge_contrast * pixel_mm2);
-    const auto [cells, bands, rough, split, error_mm2] = fineness;
+    const Fineness chosen = choose(ghost);
+    const auto [cells, bands, rough, split, error_mm2] = chosen;
+    planned.cells = cells;
+    planned.bands = bands;
 
-    if (cells != planned.cells || bands > 1 || rough || split) {
-        planned.cells = cells;
-        planned.bands = bands;
-        MirrorGrid main =
-            trace_grid(scene_.main, cells, rough ? Weights::polarised : Weights::none, planned);
-        std::vector<MirrorGrid> others;
-        if (bands > 1)
-            for (std::size_t g = 0; g < scene_.geometry.size(); ++g)
-                if (g != scene_.main)
-                    others.push_back(trace_grid(g, cells, Weights::none, planned));
-        std::vector<const MirrorGrid*> geometry{&main};
-        if (bands > 1) {
-            geometry.clear();
-            for (const MirrorGrid& grid : others) geometry.push_back(&grid);
-            geometry.insert(geometry.begin() + static_cast<std::ptrdiff_t>(scene_.main), &main);
+    const MirrorGrid& probe = ghost.grids[scene_.main];
+    std::vector<MirrorGrid> finer;
+    std::vector<const MirrorGrid*> geometry;
+    for (std::size_t g = 0; g < scene_.geometry.size(); ++g)
+        if (bands > 1 || g == scene_.main) {
+            if (cells == probe_cells)
+                geometry.push_back(&ghost.grids[g]);
+            else
+                finer.push_back(
+                    traced(planned, g, cells,
+                           rough && g == scene_.main ? Weights::polarised : Weights::none));
         }
-        mesh.clear();
-        if (rough)
-            draw_grids(geometry, main,
-                       weigh(trace_path<float>(scene_.system(), planned.path), main), bands, split,
-                       planned, mesh);
-        else
-            draw_grids(geometry, probe, ghost.weights, bands, split, planned, mesh);
+    for (const MirrorGrid& grid : finer) {
+        geometry.push_back(&grid);
+        planned.rays += grid.half.size();
     }
-    choose_level(fineness, mesh.edge_contrast * pixel_mm2, planned);
+    const MirrorGrid& main = geometry.size() == 1 ? *geometry.front() : *geometry[scene_.main];
+    if (rough && cells != probe_cells)
+        draw_grids(geometry, main, weigh(trace_path<float>(scene_.system(), planned.path), main),
+                   bands, split, planned, mesh);
+    else
+        draw_grids(geometry, probe, ghost.weights, bands, split, planned, mesh);
+    choose_level(chosen, mesh.edge_contrast * frame_.pixel_area_mm2(), planned);
 }
 
 GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
     PlannedGhost& planned = ghost.planned;
-    const double pixel_mm2 = frame_.pixel_area_mm2();
-    const MirrorGrid& probe = ghost.grids[scene_.main];
-    MirrorGrid closer;
-    if (planned.cells != probe_cells)
-        closer = trace_grid(scene_.main, planned.cells, Weights::none, planned);
-    const MirrorGrid& first = planned.cells == probe_cells ? probe : closer;
-    ColorMesh<gray_channels> mesh;
-    draw_grids({&first}, probe, ghost.weights, 1, false, planned, mesh);
-    const Fineness fineness = choose(ghost, first, mesh.edge_contrast * pixel_mm2);
-    planned.cells = fineness.cells;
-    planned.bands = fineness.bands;
-    choose_level(fineness, mesh.edge_contrast * pixel_mm2, planned);
+    const Fineness chosen = choose(ghost);
+    planned.cells = chosen.cells;
+    planned.bands = chosen.bands;
+    choose_level(chosen, ghost.errors.contrast_mm2, planned);
 
     GhostDrawing drawing;
+    const MirrorGrid& probe = ghost.grids[scene_.main];
+    const bool own_weights = chosen.rough && planned.cells != probe_cells;
     MirrorGrid fine;
     std::vector<float> fine_weights;
-    if (fineness.rough) {
-        fine = trace_grid(scene_.main, planned.cells, Weights::polarised, planned);
-        fine_weights = weigh(trace_path<float>(scene_.system(), planned.path), fine);
+    if (planned.cells != probe_cells && (own_weights || chosen.split)) {
+        fine = traced(planned, scene_.main, planned.cells,
+                      own_weights ? Weights::polarised : Weights::none);
+        planned.rays += fine.half.size();
     }
-    const MirrorGrid& grid = fineness.rough ? fine : probe;
-    const std::vector<float>& weights = fineness.rough ? fine_weights : ghost.weights;
-    if (fineness.split) {
-        const MirrorGrid main =
-            fineness.rough ? MirrorGrid{}
-                           : trace_grid(scene_.main, planned.cells, Weights::none, planned);
-        const MirrorGrid& geometry = fineness.rough ? fine : main;
-        drawing.singular = singular_cells(geometry, place(geometry));
+    if (own_weights) fine_weights = weigh(trace_path<float>(scene_.system(), planned.path), fine);
+    const MirrorGrid& weight_grid = own_weights ? fine : probe;
+    const std::vector<float>& weights = own_weights ? fine_weights : ghost.weights;
+    auto light = [&](int band, int bands) {
+        return light_of<color_channels>(weight_grid, weights,
+                                        channel_shares<color_channels>(scene_, band, bands));
+    };
+    if (chosen.split) {
+        const MirrorGrid& grid = planned.cells == probe_cells ? probe : fine;
+        drawing.singular = singular_cells(grid, place(grid));
         drawing.singular_across = split_cells;
-        drawing.singular_light =
-            trace_singular<color_channels>(
-                geometry, drawing.singular, grid,
-                light_of<color_channels>(grid, weights, channel_shares<color_channels>(0, 1)),
-                planned)
-                .weights;
+        drawing.singular_light = trace_singular<color_channels>(grid, drawing.singular, weight_grid,
+                                                                light(0, 1), planned)
+                                     .weights;
     }
     const ColorAxis axis(scene_.samples);
-    drawing.light_cells = grid.cells;
+    drawing.light_cells = weight_grid.cells;
     for (int band = 0; band < planned.bands; ++band) {
-        const std::vector<float> light = light_of<color_channels>(
-            grid, weights, channel_shares<color_channels>(band, planned.bands));
-        drawing.light.insert(drawing.light.end(), light.begin(), light.end());
+        const std::vector<float> own = light(band, planned.bands);
+        drawing.light.insert(drawing.light.end(), own.begin(), own.end());
         drawing.band_nm.push_back(axis.wavelength_nm((band + 0.5) / planned.bands));
     }
     drawing.planned = planned;
     return drawing;
 }
 
-/// RMS distance on the sensor between the outer geometry wavelengths.
-double GhostPlanner::color_shift_px(const ProbedGhost& ghost) const {
-    const MeshNodes first = place(ghost.grids.front()), last = place(ghost.grids.back());
-    double square = 0.0;
-    int count = 0;
-    for (std::size_t k = 0; k < first.column.size(); ++k) {
-        if (first.margin[k] < 0.0F || last.margin[k] < 0.0F) continue;
-        if (std::ranges::any_of(first.clearances, [&](const auto& c) {
-                return static_cast<double>(c[k]) < near_rim;
-            }))
-            continue;
-        const auto dx = static_cast<double>(first.column[k] - last.column[k]);
-        const auto dy = static_cast<double>(first.row[k] - last.row[k]);
-        square += dx * dx + dy * dy;
-        ++count;
-    }
-    return count > 0 ? std::sqrt(square / count) : 0.0;
-}
-
 std::optional<std::vector<ProbedGhost>> probe_all(const FlareScene& scene,
                                                   const GhostPlanner& planner,
                                                   const FlareRequest& request,
                                                   std::stop_token stop) {
-    std::vector<ProbedGhost> probed(scene.ghosts.size());
+    const std::vector<GhostPath>& ghosts = request.only.empty() ? scene.ghosts : request.only;
+    std::vector<ProbedGhost> probed(ghosts.size());
     const bool finished =
         parallel_for(probed.size(), request.threads, std::move(stop),
-                     [&](std::size_t g) { probed[g] = planner.probe(scene.ghosts[g]); });
+                     [&](std::size_t g) { probed[g] = planner.probe(ghosts[g]); });
     if (!finished) return std::nullopt;
-    std::vector<double> flux;
+    std::vector<ErrorShare> shares;
     double total = 0.0;
     for (const ProbedGhost& ghost : probed) {
-        flux.push_back(ghost.planned.flux_mm2);
-        total += flux.back();
+        const bool drawn = ghost.planned.fate == GhostFate::drawn;
+        shares.push_back({drawn ? ghost.planned.flux_mm2 : 0.0,
+                          ghost.errors.grid_mm2 + ghost.errors.merging_mm2});
+        total += shares.back().flux_mm2;
     }
-    const std::vector<double> allowance = share_out(flux, request.tolerance * total, most_share);
+    const std::vector<double> allowance =
+        share_out(shares, granted_share * request.tolerance * total, most_share);
     for (std::size_t g = 0; g < probed.size(); ++g) probed[g].planned.allowance_mm2 = allowance[g];
     return probed;
 }
@@ -760,6 +524,7 @@ ColorMesh<gray_channels> last_channel(const ColorMesh<C>& mesh) {
     ColorMesh<gray_channels> gray;
     gray.cells = mesh.cells;
     gray.edge_contrast = mesh.edge_contrast;
+    gray.reaches_past_right = mesh.reaches_past_right;
     gray.flux_mm2[0] = mesh.flux_mm2[C - 1];
     for (const ColorEdge<C>& e : mesh.edges)
         gray.edges.push_back({e.x0, e.y0, e.x1, e.y1, {e.e[C - 1]}, {e.gx[C - 1]}, {e.gy[C - 1]}});

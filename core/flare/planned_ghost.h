@@ -13,9 +13,20 @@
 
 namespace ghostlight {
 
+/// What a plain drawing of a ghost's first grid would get wrong, mm² over E0, before saturation.
+struct FirstErrors {
+    int cells = 0;              ///< of that grid, across
+    double area_px2 = 0.0;      ///< of the ghost's sheets on the sensor, near the frame
+    double contrast_mm2 = 0.0;  ///< per pixel of blur
+    double grid_mm2 = 0.0;      ///< the map's bend
+    double merging_mm2 = 0.0;   ///< all colours in one band
+    double weight_mm2 = 0.0;    ///< interpolating the light between the probe's rays
+};
+
 /// A ghost after its first look.
 struct ProbedGhost {
     PlannedGhost planned;
+    FirstErrors errors;
     std::vector<MirrorGrid> grids;  ///< the probe at every geometry wavelength
     std::vector<float>
         weights;  ///< of the probe's half grid at the main one, FilmTables::stride() a ray
@@ -43,7 +54,7 @@ class GhostPlanner {
     template <int C>
     void draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const;
 
-    /// The same choices, from a first coarse mesh alone, for an engine that traces and draws for
+    /// The same choices, its level from the first look, for an engine that traces and draws for
     /// itself.
     GhostDrawing prepare(ProbedGhost& ghost) const;
 
@@ -68,18 +79,16 @@ class GhostPlanner {
     double cos_azimuth_, sin_azimuth_;
     PupilBox entrance_;
 
-    Fineness choose(const ProbedGhost& ghost, const MirrorGrid& first, double contrast_mm2) const;
+    Fineness choose(const ProbedGhost& ghost) const;
     void choose_level(const Fineness& fineness, double contrast_mm2, PlannedGhost& planned) const;
-    MirrorGrid trace_grid(std::size_t node, int cells, Weights weights,
-                          PlannedGhost& planned) const;
     template <class RayOf>
     MeshNodes place(const Bundle<float>& rays, int cells, double cell_area_mm2, RayOf ray_of) const;
     MeshNodes place(const MirrorGrid& grid) const;
     MeshNodes at_wavelength(const std::vector<MeshNodes>& placed, double wavelength_nm) const;
+    MirrorGrid traced(const PlannedGhost& planned, std::size_t node, int cells,
+                      Weights weights) const;
+    void look(const MirrorGrid& first, const MeshNodes& nodes, ProbedGhost& ghost) const;
     std::vector<float> weigh(const TracePath<float>& trace, const MirrorGrid& grid) const;
-    double color_shift_px(const ProbedGhost& ghost) const;
-    template <int C>
-    std::vector<float> channel_shares(int band, int bands) const;
     template <int C>
     std::vector<float> light_of(const MirrorGrid& grid, const std::vector<float>& weights,
                                 const std::vector<float>& shares) const;

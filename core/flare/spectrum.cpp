@@ -108,6 +108,39 @@ std::string_view trimmed(std::string_view text) {
 
 double luminance(const Rgb& rgb) { return 0.2126 * rgb.r + 0.7152 * rgb.g + 0.0722 * rgb.b; }
 
+/// What a light's colour is divided by to make it neutral. A channel that is negative, or next to
+/// nothing, cannot be balanced: then only the luminance.
+Rgb balance_of(const Rgb& light) {
+    constexpr double least_share = 1e-3;
+    const double y = luminance(light);
+    if (std::min({light.r, light.g, light.b}) < least_share * y) return {y, y, y};
+    return light;
+}
+
+/// Calls visit(nm, shares) every 0.5 nm of the band with the Lagrange polynomials of the nested
+/// nodes there, in barycentric form.
+template <class Visit>
+void for_each_wavelength(const std::vector<SpectralSample>& nodes, Visit visit) {
+    constexpr double step_nm = 0.5;
+    std::vector<double> shares(nodes.size());
+    for (double nm = band_first_nm + 0.5 * step_nm; nm < band_last_nm; nm += step_nm) {
+        double sum = 0.0;
+        for (std::size_t k = 0; k < nodes.size(); ++k) {
+            const double distance = nm - nodes[k].wavelength_nm;
+            if (distance == 0.0) {
+                std::ranges::fill(shares, 0.0);
+                shares[k] = sum = 1.0;
+                break;
+            }
+            const bool end = k == 0 || k + 1 == nodes.size();
+            shares[k] = (k % 2 == 0 ? 1.0 : -1.0) * (end ? 0.5 : 1.0) / distance;
+            sum += shares[k];
+        }
+        for (double& share : shares) share /= sum;
+        visit(nm, shares);
+    }
+}
+
 }  // namespace
 
 std::string name(const Spectrum& spectrum) { return std::visit(NameOf{}, spectrum); }
@@ -148,28 +181,10 @@ std::vector<SpectralSample> nested_samples(const Spectrum& spectrum, int count) 
         const double node = std::sin(std::numbers::pi * (2 * k - last) / (2.0 * last));
         samples.push_back({middle + half * std::round(node * 1e12) / 1e12, 0.0});
     }
-    // ∫ power × Lagrange polynomial of each node, by the midpoint rule in 0.5 nm; barycentric form.
-    constexpr double step_nm = 0.5;
-    for (double nm = band_first_nm + 0.5 * step_nm; nm < band_last_nm; nm += step_nm) {
-        std::vector<double> share(samples.size());
-        double sum = 0.0;
-        bool at_node = false;
-        for (std::size_t k = 0; k < samples.size(); ++k) {
-            const double distance = nm - samples[k].wavelength_nm;
-            if (distance == 0.0) {
-                std::ranges::fill(share, 0.0);
-                share[k] = sum = 1.0;
-                at_node = true;
-                break;
-            }
-            const bool end = k == 0 || k + 1 == samples.size();
-            share[k] = (k % 2 == 0 ? 1.0 : -1.0) * (end ? 0.5 : 1.0) / distance;
-            sum += share[k];
-        }
+    for_each_wavelength(samples, [&](double nm, const std::vector<double>& shares) {
         const double power = relative_power(spectrum, nm);
-        for (std::size_t k = 0; k < samples.size(); ++k)
-            samples[k].weight += power * (at_node ? share[k] : share[k] / sum);
-    }
+        for (std::size_t k = 0; k < samples.size(); ++k) samples[k].weight += power * shares[k];
+    });
     double total = 0.0;
     for (const SpectralSample& s : samples) total += s.weight;
     for (SpectralSample& s : samples) s.weight /= total;
@@ -213,6 +228,35 @@ Rgb linear_rec709(const Xyz& xyz) {
             0.0556434 * xyz.x - 0.2040259 * xyz.y + 1.0572252 * xyz.z};
 }
 
+PassedColor passed_color(const Spectrum& spectrum, const std::vector<double>& shares) {
+    if (std::holds_alternative<Monochromatic>(spectrum))
+        throw Error("light of one wavelength has no colour that a lens could change");
+    const auto nodes = nested_samples(spectrum, static_cast<int>(shares.size()));
+    Xyz passed, light;
+    for_each_wavelength(nodes, [&](double nm, const std::vector<double>& part) {
+        const double power = relative_power(spectrum, nm);
+        const Xyz seen = color_matching(nm);
+        double share = 0.0;
+        for (std::size_t k = 0; k < shares.size(); ++k) share += part[k] * shares[k];
+        light.x += power * seen.x;
+        light.y += power * seen.y;
+        light.z += power * seen.z;
+        passed.x += power * share * seen.x;
+        passed.y += power * share * seen.y;
+        passed.z += power * share * seen.z;
+    });
+    PassedColor color;
+    const double sum = passed.x + passed.y + passed.z;
+    if (sum > 0.0) {
+        color.x = passed.x / sum;
+        color.y = passed.y / sum;
+    }
+    const Rgb white = balance_of(linear_rec709(light));
+    const Rgb rgb = linear_rec709(passed);
+    color.balanced = {rgb.r / white.r, rgb.g / white.g, rgb.b / white.b};
+    return color;
+}
+
 std::vector<Rgb> sample_colors(const Spectrum& spectrum,
                                const std::vector<SpectralSample>& samples) {
     std::vector<Rgb> colors(samples.size(), Rgb{1.0, 1.0, 1.0});
@@ -224,10 +268,7 @@ std::vector<Rgb> sample_colors(const Spectrum& spectrum,
         white.g += samples[i].weight * colors[i].g;
         white.b += samples[i].weight * colors[i].b;
     }
-    const double y = luminance(white);
-    // A channel that is negative, or next to nothing, cannot be balanced: then only the luminance.
-    constexpr double least_share = 1e-3;
-    if (std::min({white.r, white.g, white.b}) < least_share * y) white = {y, y, y};
+    white = balance_of(white);
     for (Rgb& color : colors) color = {color.r / white.r, color.g / white.g, color.b / white.b};
     return colors;
 }

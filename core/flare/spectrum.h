@@ -56,6 +56,17 @@ struct Xyz {
 Xyz color_matching(double wavelength_nm);
 Rgb linear_rec709(const Xyz& xyz);
 
+/// What becomes of the light's colour when a share of it passes: the share is known at the
+/// spectrum's nested nodes and interpolated as their rule does, then integrated with the light's
+/// power and the colour-matching functions over 400–700 nm.
+struct PassedColor {
+    double x = 0.0, y = 0.0;  ///< CIE 1931 chromaticity of the light that passed
+    Rgb balanced;             ///< linear Rec.709, the light itself being (1, 1, 1)
+};
+/// `shares` belong to nested_samples(spectrum, shares.size()). Throws Error for a single
+/// wavelength, which has no such colour.
+PassedColor passed_color(const Spectrum& spectrum, const std::vector<double>& shares);
+
 /// Linear Rec.709 colour of each sample, scaled so that the light itself, the sum over samples of
 /// weight × colour, is (1, 1, 1) for a light inside the gamut. A single wavelength is shown
 /// neutral.

@@ -1,10 +1,14 @@
 #include "core/ghosts/bundle.h"
 
+#include <algorithm>
+
 #include "core/ghosts/bundle_kernel.h"
 #include "core/instruction_set.h"
 
 namespace ghostlight {
 namespace {
+
+static_assert(max_recorded_reflections == max_reflections);
 
 template <class T>
 void run(const BundleView<T>& view) {
@@ -26,9 +30,11 @@ void trace_bundle(const TracePath<T>& path, const BeamFrame& frame, Weights weig
     pad(bundle.v_mm);
     bundle.stop_crossings = path.stop_crossings;
     for (auto* channel : {&bundle.x_mm, &bundle.y_mm, &bundle.weight, &bundle.weight_average,
-                          &bundle.margin, &bundle.r_rel, &bundle.reflectance[0],
-                          &bundle.reflectance[1], &bundle.onset[0], &bundle.onset[1]})
+                          &bundle.margin, &bundle.r_rel})
         channel->resize(padded);
+    bundle.reflections = static_cast<int>(
+        std::ranges::count_if(path.steps, [](const TraceStep<T>& step) { return step.reflects; }));
+    bundle.reflections = std::min(bundle.reflections, max_reflections);
     T* stop_u[max_stop_crossings] = {};
     T* stop_v[max_stop_crossings] = {};
     for (int k = 0; k < path.stop_crossings; ++k) {
@@ -59,10 +65,12 @@ void trace_bundle(const TracePath<T>& path, const BeamFrame& frame, Weights weig
     view.r_rel = bundle.r_rel.data();
     view.stop_u = stop_u;
     view.stop_v = stop_v;
-    view.reflectance[0] = bundle.reflectance[0].data();
-    view.reflectance[1] = bundle.reflectance[1].data();
-    view.onset[0] = bundle.onset[0].data();
-    view.onset[1] = bundle.onset[1].data();
+    for (std::size_t k = 0; k < static_cast<std::size_t>(bundle.reflections); ++k) {
+        bundle.reflectance[k].resize(padded);
+        bundle.onset[k].resize(padded);
+        view.reflectance[k] = bundle.reflectance[k].data();
+        view.onset[k] = bundle.onset[k].data();
+    }
     if (bundle.keep_cosines) {
         bundle.cosine_stride = padded;
         bundle.cosines.resize(path.steps.size() * padded);
@@ -71,9 +79,12 @@ void trace_bundle(const TracePath<T>& path, const BeamFrame& frame, Weights weig
     view.weights = static_cast<int>(weights);
     run(view);
     for (auto* channel : {&bundle.u_mm, &bundle.v_mm, &bundle.x_mm, &bundle.y_mm, &bundle.weight,
-                          &bundle.margin, &bundle.r_rel, &bundle.reflectance[0],
-                          &bundle.reflectance[1], &bundle.onset[0], &bundle.onset[1]})
+                          &bundle.margin, &bundle.r_rel})
         channel->resize(count);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(bundle.reflections); ++k) {
+        bundle.reflectance[k].resize(count);
+        bundle.onset[k].resize(count);
+    }
 }
 
 template void trace_bundle(const TracePath<float>&, const BeamFrame&, Weights, Bundle<float>&);

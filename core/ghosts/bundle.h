@@ -16,8 +16,9 @@ enum class Weights {
     polarised,  ///< the state carried along, unpolarised light in
 };
 
-/// At most this many stop crossings are recorded (four-reflection paths).
+/// At most this many stop crossings and reflections are recorded (four-reflection paths).
 inline constexpr int max_stop_crossings = 5;
+inline constexpr int max_reflections = 4;
 
 /// Rays of one collimated beam along one path, one array per quantity. Points are u e1 + v e2 on
 /// the plane across the beam through the first vertex, mm. Rays that fail are carried on with
@@ -31,10 +32,12 @@ struct Bundle {
     std::vector<T> margin;  ///< ≥ 0: no miss, no total reflection, not turned, vertex hemisphere
     std::vector<T> r_rel;   ///< largest r over the clear radius, all crossings but the stop's
     std::array<std::vector<T>, max_stop_crossings> stop_u_mm, stop_v_mm;
-    std::array<std::vector<T>, 2> reflectance;  ///< mean R at the first two reflections
+    /// Mean R at each reflection, as many as the path has.
+    std::array<std::vector<T>, max_reflections> reflectance;
     /// There, how far from the onset of total reflection: cos² of refraction, negative beyond.
-    std::array<std::vector<T>, 2> onset;
+    std::array<std::vector<T>, max_reflections> onset;
     int stop_crossings = 0;
+    int reflections = 0;
     bool keep_cosines = false;
     /// On request: cosines of incidence, step by step, each step's `cosine_stride` apart.
     std::vector<T> cosines;

@@ -69,21 +69,21 @@ namespace ghostlight::GHOSTLIGHT_JOIN(kernels_, GHOSTLIGHT_ISA) {
             store(at.x, b.stop_u[crossing] + i);
             store(at.y, b.stop_v[crossing] + i);
         } else {
-            const V r2 = at.x * at.x + at.y * at.y;
-            p.r2_rel = larger(p.r2_rel, V(r2 * (step.inverse_clear * step.inverse_clear)));
+            p.r2_rel = larger(p.r2_rel, r2_rel(step, at));
         }
         const Vec3<V> before = p.ray.direction;
         const V cos2_squared = turn(step, meeting, p.ray);
         if (!step.reflects)
             narrow(p.margin, cos2_squared);
-        else if (reflection < 2)
+        else if (reflection < max_recorded_reflections)
             store(cos2_squared, b.onset[reflection] + i);
         if constexpr (mode != no_weights) {
             if (step.invisible) return;
             const Amplitudes<V> film = amplitudes(step, b.layers, meeting.cos_incidence);
             const V mean = T(0.5) * (step.reflects ? norm(film.r_s) + norm(film.r_p)
                                                    : norm(film.t_s) + norm(film.t_p));
-            if (step.reflects && reflection < 2) store(mean, b.reflectance[reflection] + i);
+            if (step.reflects && reflection < max_recorded_reflections)
+                store(mean, b.reflectance[reflection] + i);
             p.average = p.average * mean;
             if constexpr (mode == polarised_weights)
                 apply(film, step.reflects, meeting, before, p.jones);

@@ -7,6 +7,9 @@
 
 namespace ghostlight {
 
+/// As in bundle.h, which no kernel includes.
+inline constexpr int max_recorded_reflections = 4;
+
 /// A bundle as the kernels see it: plain arrays whose length is a multiple of `bundle_padding`.
 template <class T>
 struct BundleView {
@@ -21,7 +24,7 @@ struct BundleView {
     T *x, *y, *weight, *weight_average, *margin, *r_rel;
     T* const* stop_u;
     T* const* stop_v;
-    T *reflectance[2], *onset[2];
+    T *reflectance[max_recorded_reflections], *onset[max_recorded_reflections];
     T* cosines;   ///< of incidence, `count` for each step; null when nobody asks
     int weights;  ///< Weights, as a number
 };

@@ -78,25 +78,30 @@ std::uint64_t lattice_key(const FluxCell& cell, int corner) {
     return (j << 32) | i;
 }
 
-FluxSums sums_of(const PathFlux& flux, const OpticalSystem& system) {
-    FluxSums sums;
-    for (const FluxCell& cell : flux.cells) {
-        if (cell.flux_mm2 == 0.0) continue;
-        visit_pieces(flux, cell, [&](const Piece& piece, const TriangleNodes& nodes) {
-            const double part = flux_mm2(piece);
-            sums.flux += part;
-            sums.on_sensor +=
-                flux_on_sensor(piece, 0.5 * system.sensor_width_mm, 0.5 * system.sensor_height_mm);
-            add_moments(piece, sums);
-            for (std::size_t k = 0; k < 2; ++k) {
-                double mean = 0.0;
-                for (const int node : nodes.node)
-                    mean += flux.field.rays.reflectance[k][static_cast<std::size_t>(node)] / 3.0;
-                sums.reflectance[k] += part * mean;
-            }
-        });
+/// Area of a piece on the sensor plane, mm², whichever way round its map has turned it.
+double sensor_area_mm2(const Piece& piece) {
+    double twice = 0.0;
+    for (int k = 0; k < piece.count; ++k) {
+        const PieceCorner& a = piece.corners[k];
+        const PieceCorner& b = piece.corners[(k + 1) % piece.count];
+        twice += a.x_mm * b.y_mm - b.x_mm * a.y_mm;
     }
-    return sums;
+    return 0.5 * std::abs(twice);
+}
+
+double pupil_area_mm2(const Piece& piece) {
+    double twice = 0.0;
+    for (int k = 0; k < piece.count; ++k) {
+        const PieceCorner& a = piece.corners[k];
+        const PieceCorner& b = piece.corners[(k + 1) % piece.count];
+        twice += a.u_mm * b.v_mm - b.u_mm * a.v_mm;
+    }
+    return 0.5 * std::abs(twice);
+}
+
+bool passes(const RayField<double>& field, std::size_t node) {
+    return std::ranges::all_of(field.clearances,
+                               [&](const auto& clearance) { return clearance[node] >= 0.0; });
 }
 
 /// Adds the rays of `more` to `field`.
@@ -113,7 +118,11 @@ void append(RayField<double>& field, RayField<double> more) {
     join(a.y_mm, b.y_mm);
     join(a.weight, b.weight);
     join(a.margin, b.margin);
-    for (std::size_t k = 0; k < 2; ++k) join(a.reflectance[k], b.reflectance[k]);
+    a.reflections = b.reflections;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(b.reflections); ++k) {
+        join(a.reflectance[k], b.reflectance[k]);
+        join(a.onset[k], b.onset[k]);
+    }
     field.clearances.resize(more.clearances.size());
     for (std::size_t k = 0; k < more.clearances.size(); ++k)
         join(field.clearances[k], more.clearances[k]);
@@ -121,26 +130,95 @@ void append(RayField<double>& field, RayField<double> more) {
 
 }  // namespace
 
+void SensorBox::add(double x_mm, double y_mm) {
+    x0_mm = std::min(x0_mm, x_mm);
+    x1_mm = std::max(x1_mm, x_mm);
+    y0_mm = std::min(y0_mm, y_mm);
+    y1_mm = std::max(y1_mm, y_mm);
+}
+
+void SensorBox::add(const SensorBox& other) {
+    if (other.empty()) return;
+    add(other.x0_mm, other.y0_mm);
+    add(other.x1_mm, other.y1_mm);
+}
+
 FluxSums& FluxSums::operator+=(const FluxSums& other) {
     flux += other.flux;
     on_sensor += other.on_sensor;
     x += other.x;
     y += other.y;
     r2 += other.r2;
-    for (int k = 0; k < 2; ++k) reflectance[k] += other.reflectance[k];
+    area_mm2 += other.area_mm2;
+    pupil_area_mm2 += other.pupil_area_mm2;
+    for (std::size_t k = 0; k < reflectance.size(); ++k) {
+        reflectance[k] += other.reflectance[k];
+        incidence_rad[k] += other.incidence_rad[k];
+        largest_incidence_rad[k] =
+            std::max(largest_incidence_rad[k], other.largest_incidence_rad[k]);
+    }
+    box.add(other.box);
     return *this;
 }
 
 FluxSums operator*(double scale, FluxSums sums) {
-    for (double* value : {&sums.flux, &sums.on_sensor, &sums.x, &sums.y, &sums.r2,
-                          &sums.reflectance[0], &sums.reflectance[1]})
+    for (double* value : {&sums.flux, &sums.on_sensor, &sums.x, &sums.y, &sums.r2, &sums.area_mm2,
+                          &sums.pupil_area_mm2})
         *value *= scale;
+    for (std::size_t k = 0; k < sums.reflectance.size(); ++k) {
+        sums.reflectance[k] *= scale;
+        sums.incidence_rad[k] *= scale;
+    }
     return sums;
 }
 
 PathQuadrature::PathQuadrature(const OpticalSystem& system, const GhostPath& path,
                                const BeamFrame& frame)
-    : system_(system), ghost_(path), path_(trace_path<double>(system, path)), frame_(frame) {}
+    : system_(system), ghost_(path), path_(trace_path<double>(system, path)), frame_(frame) {
+    for (const TraceStep<double>& step : path_.steps)
+        if (step.reflects) inverse_eta2_.push_back(1.0 / (step.eta * step.eta));
+}
+
+/// From cos² of the refraction, which the trace keeps to find the onset of total reflection.
+double PathQuadrature::incidence_rad(const PathFlux& flux, std::size_t reflection,
+                                     std::size_t node) const {
+    const double sin2 = (1.0 - flux.field.rays.onset[reflection][node]) * inverse_eta2_[reflection];
+    return std::asin(std::sqrt(std::clamp(sin2, 0.0, 1.0)));
+}
+
+FluxSums PathQuadrature::sums_of(const PathFlux& flux) const {
+    const auto reflections = static_cast<std::size_t>(flux.field.rays.reflections);
+    FluxSums sums;
+    for (const FluxCell& cell : flux.cells) {
+        if (cell.flux_mm2 == 0.0) continue;
+        visit_pieces(flux, cell, [&](const Piece& piece, const TriangleNodes& nodes) {
+            const double part = flux_mm2(piece);
+            sums.flux += part;
+            sums.on_sensor += flux_on_sensor(piece, 0.5 * system_.sensor_width_mm,
+                                             0.5 * system_.sensor_height_mm);
+            add_moments(piece, sums);
+            sums.area_mm2 += sensor_area_mm2(piece);
+            sums.pupil_area_mm2 += pupil_area_mm2(piece);
+            for (int k = 0; k < piece.count; ++k)
+                sums.box.add(piece.corners[k].x_mm, piece.corners[k].y_mm);
+            for (std::size_t k = 0; k < reflections; ++k) {
+                double reflectance = 0.0, incidence = 0.0;
+                for (const int corner : nodes.node) {
+                    const auto node = static_cast<std::size_t>(corner);
+                    const double angle = incidence_rad(flux, k, node);
+                    reflectance += flux.field.rays.reflectance[k][node] / 3.0;
+                    incidence += angle / 3.0;
+                    if (passes(flux.field, node))
+                        sums.largest_incidence_rad[k] =
+                            std::max(sums.largest_incidence_rad[k], angle);
+                }
+                sums.reflectance[k] += part * reflectance;
+                sums.incidence_rad[k] += part * incidence;
+            }
+        });
+    }
+    return sums;
+}
 
 void PathQuadrature::trace_lattice(PathFlux& flux, const std::vector<std::uint64_t>& keys) const {
     const PupilBox& box = flux.pupil.entrance;
@@ -226,7 +304,23 @@ void PathQuadrature::refine(PathFlux& flux, double share, double floor_mm2,
         split(flux, 0.5 * allowed / static_cast<double>(flux.cells.size()));
         if (flux.cells.size() == before) break;
     }
-    flux.sums = sums_of(flux, system_);
+    flux.sums = sums_of(flux);
+}
+
+std::vector<BeamPart> PathQuadrature::parts(const PathFlux& flux) const {
+    std::vector<BeamPart> parts;
+    for (const FluxCell& cell : flux.cells) {
+        if (cell.flux_mm2 == 0.0) continue;
+        visit_pieces(flux, cell, [&](const Piece& piece, const TriangleNodes&) {
+            BeamPart part{0.0, 0.0, pupil_area_mm2(piece)};
+            for (int k = 0; k < piece.count; ++k) {
+                part.u_mm += piece.corners[k].u_mm / piece.count;
+                part.v_mm += piece.corners[k].v_mm / piece.count;
+            }
+            parts.push_back(part);
+        });
+    }
+    return parts;
 }
 
 GhostMesh PathQuadrature::mesh(PathFlux& flux, const PixelFrame& pixels, int cells,

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <stop_token>
 #include <unordered_map>
 #include <vector>
@@ -13,13 +15,28 @@
 
 namespace ghostlight {
 
-/// Integrals over a path's bundle at one wavelength, or sums of them over a spectrum. Positions
-/// and reflectances are weighted by flux: divide by `flux`.
+/// A rectangle on the sensor plane, mm; empty until a point is put in.
+struct SensorBox {
+    double x0_mm = std::numeric_limits<double>::infinity(), x1_mm = -x0_mm;
+    double y0_mm = std::numeric_limits<double>::infinity(), y1_mm = -y0_mm;
+    bool empty() const { return x0_mm > x1_mm; }
+    void add(double x_mm, double y_mm);
+    void add(const SensorBox& other);
+};
+
+/// Integrals over a path's bundle at one wavelength, or sums of them over a spectrum. Positions,
+/// reflectances and angles are weighted by flux: divide by `flux`.
 struct FluxSums {
     double flux = 0.0;       ///< mm²
     double on_sensor = 0.0;  ///< mm² of it inside the sensor's rectangle
     double x = 0.0, y = 0.0, r2 = 0.0;
-    double reflectance[2] = {0.0, 0.0};
+    std::array<double, max_reflections> reflectance{};
+    std::array<double, max_reflections> incidence_rad{};
+    double area_mm2 = 0.0;        ///< on the sensor plane, each of a folded ghost's sheets
+    double pupil_area_mm2 = 0.0;  ///< of the beam's part that passes, across the beam
+    // Not sums, but largest values: scaling leaves them.
+    std::array<double, max_reflections> largest_incidence_rad{};
+    SensorBox box;
     FluxSums& operator+=(const FluxSums& other);
 };
 FluxSums operator*(double scale, FluxSums sums);
@@ -44,6 +61,11 @@ struct PathFlux {
     std::vector<FluxCell> cells;
 };
 
+/// A part of the beam that passes: its middle on the plane across the beam, and its area.
+struct BeamPart {
+    double u_mm = 0.0, v_mm = 0.0, area_mm2 = 0.0;
+};
+
 /// The flux of one path by adaptive quadrature over the pupil: weight and clearances are linear on
 /// two triangles per cell, and the cells whose flux changes most when split are split further, so
 /// that edges, the onset of total reflection and thin crescents get the rays. The polarisation
@@ -62,6 +84,9 @@ class PathQuadrature {
     /// out the moments.
     void refine(PathFlux& flux, double share, double floor_mm2, std::stop_token stop) const;
 
+    /// The parts of the beam that pass, as the cells stand.
+    std::vector<BeamPart> parts(const PathFlux& flux) const;
+
     /// The path's irradiance for a raster, on a uniform grid, scaled to the flux found.
     GhostMesh mesh(PathFlux& flux, const PixelFrame& pixels, int cells, double gain) const;
 
@@ -70,8 +95,11 @@ class PathQuadrature {
     GhostPath ghost_;
     TracePath<double> path_;
     BeamFrame frame_;
+    std::vector<double> inverse_eta2_;  ///< (n_out/n_in)² at each reflection
 
     void split(PathFlux& flux, double above_mm2) const;
+    FluxSums sums_of(const PathFlux& flux) const;
+    double incidence_rad(const PathFlux& flux, std::size_t reflection, std::size_t node) const;
     void trace_lattice(PathFlux& flux, const std::vector<std::uint64_t>& keys) const;
 };
 

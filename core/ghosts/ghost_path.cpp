@@ -9,13 +9,16 @@
 namespace ghostlight {
 namespace {
 
+constexpr std::string_view sensor_word = "sensor";
+
 [[noreturn]] void refuse(std::string_view text, const std::string& problem) {
-    throw Error(
-        {.problem = problem,
-         .file = {},
-         .where = {},
-         .found = fmt::format("ghost '{}'", text),
-         .expected = "direct, or two surfaces that reflect, like 5-3 (the later one first)"});
+    throw Error({.problem = problem,
+                 .file = {},
+                 .where = {},
+                 .found = fmt::format("ghost '{}'", text),
+                 .expected =
+                     "direct, or two surfaces that reflect, like 5-3 (the later one first), or "
+                     "sensor-3 where the sensor reflects"});
 }
 
 std::size_t surface_number(std::string_view word, std::string_view text) {
@@ -28,12 +31,12 @@ std::size_t surface_number(std::string_view word, std::string_view text) {
 
 }  // namespace
 
-std::string name(const GhostPath& path) {
+std::string name(const GhostPath& path, std::size_t surface_count) {
     if (path.is_direct()) return "direct";
     std::string text;
     for (const std::size_t surface : path.reflections) {
         if (!text.empty()) text += '-';
-        text += std::to_string(surface + 1);
+        text += surface == surface_count ? std::string(sensor_word) : std::to_string(surface + 1);
     }
     return text;
 }
@@ -43,7 +46,15 @@ GhostPath parse_ghost(std::string_view text, const OpticalSystem& system) {
     if (text == "direct") return path;
     for (std::size_t begin = 0; begin <= text.size();) {
         const std::size_t dash = std::min(text.find('-', begin), text.size());
-        const std::size_t number = surface_number(text.substr(begin, dash - begin), text);
+        const std::string_view word = text.substr(begin, dash - begin);
+        begin = dash + 1;
+        if (word == sensor_word) {
+            if (!system.sensor_face)
+                refuse(text, "the sensor of this lens does not reflect (it has no reflectance)");
+            path.reflections.push_back(system.surfaces.size());
+            continue;
+        }
+        const std::size_t number = surface_number(word, text);
         if (number < 1 || number > system.surfaces.size())
             refuse(text, fmt::format("surface {} does not exist; this lens has surfaces 1 to {}",
                                      number, system.surfaces.size()));
@@ -52,7 +63,6 @@ GhostPath parse_ghost(std::string_view text, const OpticalSystem& system) {
                                      "coating)",
                                      number));
         path.reflections.push_back(number - 1);
-        begin = dash + 1;
     }
     if (path.reflections.size() % 2 != 0)
         refuse(text, "light reaches the sensor only after an even number of reflections");
@@ -80,12 +90,15 @@ std::vector<PathEvent> events(const GhostPath& path, std::size_t surface_count) 
     return result;
 }
 
+bool can_turn(const OpticalSystem& system, std::size_t row) {
+    return row < turning_count(system) && surface_at(system, row).reflects;
+}
+
 std::vector<GhostPath> two_reflection_ghosts(const OpticalSystem& system) {
     std::vector<GhostPath> ghosts;
-    for (std::size_t i = 1; i < system.surfaces.size(); ++i)
+    for (std::size_t i = 1; i < turning_count(system); ++i)
         for (std::size_t j = 0; j < i; ++j)
-            if (system.surfaces[i].reflects && system.surfaces[j].reflects)
-                ghosts.push_back({{i, j}});
+            if (can_turn(system, i) && can_turn(system, j)) ghosts.push_back({{i, j}});
     return ghosts;
 }
 

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "core/io/medium_json.h"
+#include "core/io/sensor_json.h"
 
 namespace ghostlight {
 namespace {
@@ -118,7 +119,9 @@ Sensor read_sensor(const JsonAt& object, Surface& last, bool last_has_thickness)
     Sensor sensor;
     if (const auto width = optional_number(object, "width_mm")) sensor.width_mm = *width;
     if (const auto height = optional_number(object, "height_mm")) sensor.height_mm = *height;
-    keep_unknown(object, {"width_mm", "height_mm", "distance_mm"}, sensor.unknown);
+    keep_unknown(object, {"width_mm", "height_mm", "distance_mm", "reflectance"}, sensor.unknown);
+    if (const auto reflectance = object.find("reflectance"))
+        sensor.reflectance = read_sensor_reflectance(*reflectance, sensor.unknown);
     constexpr std::string_view expected =
         "the distance from the last surface in mm, or \"paraxial focus\"";
     const auto distance = object.find("distance_mm");

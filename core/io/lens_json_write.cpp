@@ -2,6 +2,7 @@
 
 #include "core/io/lens_json.h"
 #include "core/io/medium_json.h"
+#include "core/io/sensor_json.h"
 
 namespace ghostlight {
 namespace {
@@ -41,6 +42,7 @@ Json sensor_json(const Sensor& sensor, double distance_mm) {
         object["distance_mm"] = "paraxial focus";
     else
         object["distance_mm"] = distance_mm;
+    if (sensor.reflectance) object["reflectance"] = write_sensor_reflectance(*sensor.reflectance);
     restore_unknown(object, sensor.unknown);
     return object;
 }

@@ -98,28 +98,6 @@ QuarterWave read_quarter_wave(const JsonAt& object, UnknownFields& unknown) {
     return coating;
 }
 
-LayerStack read_layers(const JsonAt& array, UnknownFields& unknown) {
-    array.require_array("an array of layers");
-    LayerStack stack;
-    for (std::size_t i = 0; i < array.size(); ++i) {
-        const JsonAt object = array[i];
-        object.require_object("a layer {index or glass, k, thickness_nm}");
-        const std::string below = fmt::format("coating/layers/{}", i);
-        keep_unknown(object, {"glass", "model", "index", "formula", "k", "thickness_nm"}, unknown,
-                     below);
-        if (!object.find("glass") && !object.find("index") && !object.find("model") &&
-            !object.find("formula"))
-            object.refuse("the layer's medium is missing", "glass, index, model or formula");
-        Layer layer;
-        layer.medium = read_medium(object, unknown, below);
-        layer.thickness_nm =
-            object.at("thickness_nm", "the layer's thickness in nm").number("a thickness in nm");
-        layer.extinction = optional_number(object, "k").value_or(0.0);
-        stack.layers.push_back(std::move(layer));
-    }
-    return stack;
-}
-
 struct WriteCoating {
     Json operator()(const Uncoated&) const { return "none"; }
 
@@ -234,6 +212,28 @@ void write_medium(Json& object, const Medium& medium) {
     if (!is_catalogued(medium)) std::visit(WriteDispersion{object}, medium.dispersion);
 }
 
+LayerStack read_layers(const JsonAt& array, UnknownFields& unknown, const std::string& below) {
+    array.require_array("an array of layers");
+    LayerStack stack;
+    for (std::size_t i = 0; i < array.size(); ++i) {
+        const JsonAt object = array[i];
+        object.require_object("a layer {index or glass, k, thickness_nm}");
+        const std::string here = fmt::format("{}/{}", below, i);
+        keep_unknown(object, {"glass", "model", "index", "formula", "k", "thickness_nm"}, unknown,
+                     here);
+        if (!object.find("glass") && !object.find("index") && !object.find("model") &&
+            !object.find("formula"))
+            object.refuse("the layer's medium is missing", "glass, index, model or formula");
+        Layer layer;
+        layer.medium = read_medium(object, unknown, here);
+        layer.thickness_nm =
+            object.at("thickness_nm", "the layer's thickness in nm").number("a thickness in nm");
+        layer.extinction = optional_number(object, "k").value_or(0.0);
+        stack.layers.push_back(std::move(layer));
+    }
+    return stack;
+}
+
 Coating read_coating(const JsonAt& value, UnknownFields& unknown) {
     constexpr std::string_view expected = "\"none\", {\"quarter_wave\": {…}} or {\"layers\": […]}";
     if (value.value().is_string() && lower_case(value.text()) == "none") return Uncoated{};
@@ -244,7 +244,7 @@ Coating read_coating(const JsonAt& value, UnknownFields& unknown) {
         value.refuse("not a known coating", expected);
     keep_unknown(value, {"quarter_wave", "layers"}, unknown, "coating");
     if (quarter_wave) return read_quarter_wave(*quarter_wave, unknown);
-    return read_layers(*layers, unknown);
+    return read_layers(*layers, unknown, "coating/layers");
 }
 
 Json write_coating(const Coating& coating) { return std::visit(WriteCoating{}, coating); }

@@ -31,4 +31,8 @@ Coating read_coating(const JsonAt& value, UnknownFields& unknown);
 /// The reverse; "none" for a bare surface.
 Json write_coating(const Coating& coating);
 
+/// Reads an array of layers, from the incoming side. Fields that are not known go to `unknown`,
+/// below `below`. Throws Error.
+LayerStack read_layers(const JsonAt& array, UnknownFields& unknown, const std::string& below);
+
 }  // namespace ghostlight

@@ -1,10 +1,13 @@
 #include "core/io/table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+
+#include "core/error.h"
 
 namespace ghostlight {
 namespace {
@@ -62,6 +65,26 @@ std::size_t utf8_length(std::string_view text) {
 }
 
 }  // namespace
+
+Table select_columns(const Table& table, const std::vector<std::string>& names) {
+    std::vector<std::size_t> places;
+    for (const std::string& name : names) {
+        const auto at = std::ranges::find(table.columns, name);
+        if (at == table.columns.end())
+            throw Error({.problem = "there is no such column",
+                         .file = {},
+                         .where = {},
+                         .found = fmt::format("'{}'", name),
+                         .expected = fmt::format("{}", fmt::join(table.columns, ", "))});
+        places.push_back(static_cast<std::size_t>(at - table.columns.begin()));
+    }
+    Table selected{.columns = names, .rows = {}};
+    for (const auto& row : table.rows) {
+        std::vector<Cell>& cells = selected.rows.emplace_back();
+        for (const std::size_t place : places) cells.push_back(row[place]);
+    }
+    return selected;
+}
 
 std::string exact_text(const Cell& cell) {
     if (is_empty(cell)) return {};

@@ -17,6 +17,9 @@ struct Table {
     std::vector<std::vector<Cell>> rows;  ///< each as long as `columns`
 };
 
+/// The columns of those names, in that order. Throws Error naming the known ones.
+Table select_columns(const Table& table, const std::vector<std::string>& names);
+
 // The forms of a number do not depend on the locale. NaN means that a value does not exist, and is
 // treated as an empty cell everywhere.
 

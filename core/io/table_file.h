@@ -7,13 +7,17 @@
 
 namespace ghostlight {
 
-/// The ghost table with the columns of docs/command-line.md, the direct path's row first.
-Table ghost_rows(const GhostTable& table);
+/// Which columns of docs/command-line.md: the first fourteen, or all.
+enum class GhostColumns { basic, all };
 
-/// The same as CSV: round-trip digits, C locale.
-std::string ghost_table_csv(const GhostTable& table);
+/// The ghost table, the direct path's row first; a last row "not traced" where ghosts of four
+/// reflections are left, whose flux is what they have together at most.
+Table ghost_rows(const GhostTable& table, GhostColumns columns = GhostColumns::basic);
+
+/// The same as CSV: round-trip digits, C locale, UTF-8.
+std::string ghost_table_csv(const GhostTable& table, GhostColumns columns = GhostColumns::basic);
 
 /// The same as JSON, one object per row.
-std::string ghost_table_json(const GhostTable& table);
+std::string ghost_table_json(const GhostTable& table, GhostColumns columns = GhostColumns::basic);
 
 }  // namespace ghostlight

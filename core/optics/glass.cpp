@@ -135,6 +135,13 @@ double abbe_number(const Medium& medium) {
     return (refractive_index(medium, d_line_nm) - 1.0) / spread;
 }
 
+std::string describe(const Medium& medium) {
+    if (!medium.name.empty()) return medium.name;
+    if (is_air(medium)) return "air";
+    if (std::holds_alternative<UnknownGlass>(medium.dispersion)) return "not known";
+    return fmt::format("n {:.4f}", refractive_index(medium, d_line_nm));
+}
+
 bool is_air(const Medium& medium) {
     const auto* constant = std::get_if<ConstantIndex>(&medium.dispersion);
     return constant != nullptr && constant->n == 1.0;

@@ -60,6 +60,9 @@ double abbe_number(const Medium& medium);
 /// Air by this project's convention: n = 1 at every wavelength.
 bool is_air(const Medium& medium);
 
+/// For people: the name, "air", or the index at d: "n 1.6910".
+std::string describe(const Medium& medium);
+
 /// Magnesium fluoride, ordinary ray (Dodge 1984, as on refractiveindex.info): the default layer.
 Medium magnesium_fluoride();
 

@@ -12,6 +12,59 @@
 namespace ghostlight {
 namespace {
 
+struct FaceOf {
+    double wavelength_nm;
+    SurfaceAt& face;
+
+    void operator()(const UniformReflectance& uniform) const {
+        face.uniform_reflectance = uniform.share;
+    }
+    void operator()(const ReflectanceTable& table) const {
+        const auto& entries = table.entries;
+        const auto after =
+            std::ranges::upper_bound(entries, wavelength_nm, {}, &ReflectanceAt::wavelength_nm);
+        if (after == entries.begin()) {
+            face.uniform_reflectance = entries.front().share;
+        } else if (after == entries.end()) {
+            face.uniform_reflectance = entries.back().share;
+        } else {
+            const ReflectanceAt& before = *(after - 1);
+            const double t = (wavelength_nm - before.wavelength_nm) /
+                             (after->wavelength_nm - before.wavelength_nm);
+            face.uniform_reflectance = std::lerp(before.share, after->share, t);
+        }
+    }
+    void operator()(const SensorFilms& films) const {
+        Medium before;  // by index: the last row's medium is already compiled
+        before.dispersion = ConstantIndex{face.n_before};
+        face.film = film_at(films.stack, before, films.substrate, wavelength_nm);
+    }
+};
+
+/// Whatever the wavelength, so that a lens has the same ghosts at all of them.
+bool reflects_somewhere(const SensorReflectance& reflectance) {
+    if (const auto* uniform = std::get_if<UniformReflectance>(&reflectance))
+        return uniform->share > 0.0;
+    if (const auto* table = std::get_if<ReflectanceTable>(&reflectance))
+        return std::ranges::any_of(table->entries,
+                                   [](const ReflectanceAt& at) { return at.share > 0.0; });
+    return false;  // films: by what they are
+}
+
+/// The sensor's face at the end of the rows, or nothing where it sends nothing back.
+std::optional<SurfaceAt> face_of(const Sensor& sensor, double n_before, double wavelength_nm) {
+    if (!sensor.reflectance) return std::nullopt;
+    SurfaceAt face;
+    face.n_before = n_before;
+    face.film = {.n_in = n_before, .layers = {}, .n_out = n_before, .wavelength_nm = wavelength_nm};
+    std::visit(FaceOf{wavelength_nm, face}, *sensor.reflectance);
+    face.n_after = face.film.n_out;
+    face.semi_diameter_mm = 0.5 * std::hypot(sensor.width_mm, sensor.height_mm);
+    face.reflects = reflects_somewhere(*sensor.reflectance) || !is_invisible(face.film);
+    if (!face.reflects) return std::nullopt;
+    return face;
+}
+
 OpticalSystem as_listed(const Prescription& lens, double wavelength_nm) {
     OpticalSystem system;
     system.wavelength_nm = wavelength_nm;
@@ -37,6 +90,8 @@ OpticalSystem as_listed(const Prescription& lens, double wavelength_nm) {
     system.sensor_z_mm = z;
     system.sensor_width_mm = lens.sensor.width_mm;
     system.sensor_height_mm = lens.sensor.height_mm;
+    system.sensor_face = face_of(lens.sensor, system.surfaces.back().n_after, wavelength_nm);
+    if (system.sensor_face) system.sensor_face->vertex_z_mm = z;
     const double listed = lens.surfaces[lens.stop.surface].semi_diameter_mm;
     system.stop_mask.semi_diameter_mm =
         std::min(listed, lens.stop.semi_diameter_mm.value_or(listed));
@@ -60,6 +115,14 @@ double stop_semi_diameter_mm(const OpticalSystem& at_d, double f_number) {
 }
 
 }  // namespace
+
+const SurfaceAt& surface_at(const OpticalSystem& system, std::size_t row) {
+    return row < system.surfaces.size() ? system.surfaces[row] : system.sensor_face.value();
+}
+
+std::size_t turning_count(const OpticalSystem& system) {
+    return system.surfaces.size() + (system.sensor_face ? 1 : 0);
+}
 
 OpticalSystem compile(const Prescription& lens, double wavelength_nm,
                       std::string_view configuration) {
@@ -87,6 +150,7 @@ OpticalSystem compile(const Prescription& lens, double wavelength_nm,
                          .found = fmt::format("focus at {} mm", bfd),
                          .expected = "a distance in mm"});
         system.sensor_z_mm = system.surfaces.back().vertex_z_mm + bfd;
+        if (system.sensor_face) system.sensor_face->vertex_z_mm = system.sensor_z_mm;
     }
     return system;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct SurfaceAt {
     double n_after = 1.0;
     Film film;  ///< seen from the incoming side
     bool reflects = false;
+    /// At every angle and polarisation in place of what the film gives; the sensor's alone.
+    std::optional<double> uniform_reflectance;
 };
 
 /// The stop's opening at the working f-number.
@@ -38,8 +41,18 @@ struct OpticalSystem {
     double sensor_z_mm = 0.0;
     double sensor_width_mm = 36.0;
     double sensor_height_mm = 24.0;
+    /// The sensor as a plane that reflects, if it does: it follows the last row as one more surface
+    /// of the paths, and light meets it only inside its rectangle. Its semi-diameter is half the
+    /// diagonal.
+    std::optional<SurfaceAt> sensor_face;
     double wavelength_nm = 587.5618;
 };
+
+/// A row, or the sensor's face for the row after the last.
+const SurfaceAt& surface_at(const OpticalSystem& system, std::size_t row);
+
+/// How many surfaces a path may turn at: the rows, and the sensor if it reflects.
+std::size_t turning_count(const OpticalSystem& system);
 
 /// Validates and compiles. The stop's radius follows the f-number paraxially at d, capped by the
 /// stop row's semi-diameter; "paraxial focus" is taken at d too, so that every wavelength sees the

@@ -58,9 +58,37 @@ FirstOrder first_order(const OpticalSystem& system) {
     order.exit_pupil_radius_mm =
         ratio(system.stop_mask.semi_diameter_mm * std::abs(determinant), std::abs(from_stop.d));
     order.f_number = ratio(std::abs(order.efl_mm), 2.0 * order.entrance_pupil_radius_mm);
+    // Object space is air; f' belongs to the last medium, the front focal length is f'/n'.
+    const double front_focal_mm = order.efl_mm / system.surfaces.back().n_after;
+    order.front_principal_z_mm = order.ffd_mm + front_focal_mm;
+    order.rear_principal_z_mm = order.bfd_mm - order.efl_mm;
+    order.front_nodal_z_mm = order.ffd_mm + order.efl_mm;
+    order.rear_nodal_z_mm = order.bfd_mm - front_focal_mm;
+    order.pupil_magnification = ratio(to_stop.a * determinant, from_stop.d);
+    for (const SurfaceAt& surface : system.surfaces)
+        order.petzval_per_mm += surface.curvature_per_mm * (surface.n_after - surface.n_before) /
+                                (surface.n_before * surface.n_after);
+    order.total_track_mm = system.sensor_z_mm;
     order.sensor_distance_mm = system.sensor_z_mm - system.surfaces.back().vertex_z_mm;
     order.paraxial_defocus_mm = order.sensor_distance_mm - order.bfd_mm;
     return order;
+}
+
+std::vector<ParaxialMeeting> paraxial_meetings(const OpticalSystem& system, const GhostPath& path) {
+    std::vector<ParaxialMeeting> meetings;
+    RayMatrix whole;
+    double z = 0.0;
+    for (const PathEvent& event : events(path, system.surfaces.size())) {
+        const SurfaceAt& surface = surface_at(system, event.surface);
+        whole = gap(std::abs(surface.vertex_z_mm - z)) * whole;
+        z = surface.vertex_z_mm;
+        const bool at_stop = event.surface == system.stop;
+        meetings.push_back({whole,
+                            at_stop ? system.stop_mask.semi_diameter_mm : surface.semi_diameter_mm,
+                            at_stop});
+        whole = interaction(surface, event) * whole;
+    }
+    return meetings;
 }
 
 ParaxialGhost paraxial_ghost(const OpticalSystem& system, const GhostPath& path) {
@@ -69,7 +97,7 @@ ParaxialGhost paraxial_ghost(const OpticalSystem& system, const GhostPath& path)
     double limit = infinity;
     double z = 0.0;
     for (const PathEvent& event : events(path, system.surfaces.size())) {
-        const SurfaceAt& surface = system.surfaces[event.surface];
+        const SurfaceAt& surface = surface_at(system, event.surface);
         const RayMatrix leg = gap(std::abs(surface.vertex_z_mm - z));
         z = surface.vertex_z_mm;
         whole = leg * whole;
@@ -93,6 +121,11 @@ ParaxialGhost paraxial_ghost(const OpticalSystem& system, const GhostPath& path)
     ghost.magnification = ratio(ghost.to_sensor.a, ghost.to_stop.a);
     ghost.entrance_semi_diameter_mm = limit;
     ghost.diameter_mm = 2.0 * std::abs(ghost.to_sensor.a) * limit;
+    const RayMatrix& after = ghost.stop_to_sensor;
+    ghost.pupil_from_sensor_mm = ratio(-after.b, after.d);
+    ghost.pupil_radius_mm =
+        ratio(system.stop_mask.semi_diameter_mm * std::abs(after.a * after.d - after.b * after.c),
+              std::abs(after.d));
     // M/B = A/B + κ with κ = u/y at the stop; λ is that of the stop's medium, as B is not reduced.
     const double a = system.stop_mask.semi_diameter_mm;
     const double wavelength_mm =

@@ -59,10 +59,36 @@ struct Stop {
     bool operator==(const Stop&) const = default;
 };
 
+/// The same share of the light at every wavelength, angle and polarisation.
+struct UniformReflectance {
+    double share = 0.0;
+    bool operator==(const UniformReflectance&) const = default;
+};
+/// One entry of a table of reflectances.
+struct ReflectanceAt {
+    double wavelength_nm = 0.0;
+    double share = 0.0;
+    bool operator==(const ReflectanceAt&) const = default;
+};
+/// Over wavelength, the same at every angle: linear between the entries, the nearest one beyond.
+struct ReflectanceTable {
+    std::vector<ReflectanceAt> entries;  ///< wavelengths rising
+    bool operator==(const ReflectanceTable&) const = default;
+};
+/// Films on the sensor's material, ordered from the incoming side.
+struct SensorFilms {
+    LayerStack stack;
+    Medium substrate;
+    bool operator==(const SensorFilms&) const = default;
+};
+/// What a sensor sends back into the lens.
+using SensorReflectance = std::variant<UniformReflectance, ReflectanceTable, SensorFilms>;
+
 struct Sensor {
     double width_mm = 36.0;
     double height_mm = 24.0;
-    bool at_paraxial_focus = false;  ///< else at the last surface's thickness
+    bool at_paraxial_focus = false;                ///< else at the last surface's thickness
+    std::optional<SensorReflectance> reflectance;  ///< none: the sensor is not a ghost's surface
     UnknownFields unknown;
     bool operator==(const Sensor&) const = default;
 };

@@ -94,19 +94,19 @@ TracedRay trace_ray(const OpticalSystem& system, const GhostPath& ghost, const R
         const Meeting<double> meeting = meet(step, path.aspheric.data(), 1.0, at);
         if (!(meeting.turned_margin >= 0.0)) return fail(RayFate::turned, surface);
         if (!(meeting.miss_margin >= 0.0)) return fail(RayFate::miss, surface);
-        const double r = std::hypot(at.position.x, at.position.y);
         RayHit hit{.surface = surface,
                    .point = at.position,
                    .cos_incidence = meeting.cos_incidence,
                    .reflected = step.reflects};
-        hit.point.z += system.surfaces[surface].vertex_z_mm;
+        hit.point.z += surface_at(system, surface).vertex_z_mm;
         if (step.at_stop) {
             result.stop_point = {at.position.x, at.position.y};
-            hit.r_rel = r / system.stop_mask.semi_diameter_mm;
+            hit.r_rel =
+                std::hypot(at.position.x, at.position.y) / system.stop_mask.semi_diameter_mm;
             if (!stop_passes(system.stop_mask, at.position.x, at.position.y))
                 clip(RayFate::stop, surface);
         } else {
-            hit.r_rel = r * step.inverse_clear;
+            hit.r_rel = std::sqrt(r2_rel(step, at.position));
             result.r_rel = std::max(result.r_rel, hit.r_rel);
             if (hit.r_rel > 1.0) clip(RayFate::clipped, surface);
         }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <numbers>
 #include <vector>
 
@@ -14,15 +15,19 @@ template <class T>
 struct TraceStep {
     T gap_mm;  ///< previous vertex z minus this one's: added to the ray's z
     T curvature, conic;
-    T inverse_clear;  ///< 1 / semi-diameter
-    T n_in, n_out;    ///< along travel; n_out is the far side's also where the ray reflects
-    T eta;            ///< n_in / n_out
-    T sense;          ///< nominal direction of travel before the event, ±1
+    T inverse_clear;                            ///< 1 / semi-diameter
+    T inverse_half_width, inverse_half_height;  ///< instead, where `rectangular`
+    T uniform_r, uniform_t;                     ///< amplitudes, where `uniform`
+    T n_in, n_out;  ///< along travel; n_out is the far side's also where the ray reflects
+    T eta;          ///< n_in / n_out
+    T sense;        ///< nominal direction of travel before the event, ±1
     int first_aspheric, aspheric_count;
     int first_layer, layer_count;
     int surface;
     bool reflects, at_stop, absorbing, invisible;
-    bool spherical;  ///< or plane: the normal comes out with unit length
+    bool spherical;    ///< or plane: the normal comes out with unit length
+    bool rectangular;  ///< the sensor's face: clear inside its rectangle
+    bool uniform;      ///< reflects the same at every angle and polarisation
 };
 
 /// A lens unfolded along one path, ready to trace.
@@ -40,7 +45,7 @@ TracePath<T> trace_path(const OpticalSystem& system, const GhostPath& ghost) {
     TracePath<T> path;
     double z = 0.0;
     for (const PathEvent& event : events(ghost, system.surfaces.size())) {
-        const SurfaceAt& surface = system.surfaces[event.surface];
+        const SurfaceAt& surface = surface_at(system, event.surface);
         const Film film = event.forward ? surface.film : reversed(surface.film);
         TraceStep<T> step{};
         step.gap_mm = T(z - surface.vertex_z_mm);
@@ -65,9 +70,15 @@ TracePath<T> trace_path(const OpticalSystem& system, const GhostPath& ghost) {
         step.surface = static_cast<int>(event.surface);
         step.reflects = event.reflects;
         step.at_stop = event.surface == system.stop;
+        step.rectangular = event.surface == system.surfaces.size();
+        step.inverse_half_width = T(2.0 / system.sensor_width_mm);
+        step.inverse_half_height = T(2.0 / system.sensor_height_mm);
+        step.uniform = surface.uniform_reflectance.has_value();
+        step.uniform_r = T(std::sqrt(surface.uniform_reflectance.value_or(0.0)));
+        step.uniform_t = T(std::sqrt(1.0 - surface.uniform_reflectance.value_or(0.0)));
         if (step.at_stop) ++path.stop_crossings;
         step.absorbing = is_absorbing(film);
-        step.invisible = is_invisible(film);
+        step.invisible = !step.uniform && is_invisible(film);
         path.steps.push_back(step);
     }
     path.sensor_gap_mm = T(z - system.sensor_z_mm);

@@ -243,9 +243,27 @@ GHOSTLIGHT_INLINE void apply(const Amplitudes<V>& film, bool reflects, const Mee
     state.s = s;
 }
 
+/// The square of a point's distance from the axis over the clear radius; in a rectangle the larger
+/// of the squares of its coordinates over the half sides.
+template <class V, class T>
+GHOSTLIGHT_INLINE V r2_rel(const TraceStep<T>& step, const Vec3<V>& at) {
+    if (step.rectangular) {
+        const V x = at.x * step.inverse_half_width, y = at.y * step.inverse_half_height;
+        return larger(V(x * x), V(y * y));
+    }
+    const V r2 = at.x * at.x + at.y * at.y;
+    return r2 * (step.inverse_clear * step.inverse_clear);
+}
+
 template <class V, class T>
 GHOSTLIGHT_INLINE Amplitudes<V> amplitudes(const TraceStep<T>& step, const LayerAt<T>* layers,
                                            const V& cos_incidence) {
+    if (step.uniform) {
+        // Both polarisations alike: r_p = −r_s in the frame p = k × s.
+        const V zero{Lane<V>(0)};
+        const V r{step.uniform_r}, t{step.uniform_t};
+        return {{r, zero}, {V(-r), zero}, {t, zero}, {t, zero}};
+    }
     const LayerAt<T>* own = layers + step.first_layer;
     return step.absorbing
                ? film_amplitudes<true>(step.n_in, own, step.layer_count, step.n_out, cos_incidence)

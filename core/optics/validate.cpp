@@ -126,6 +126,33 @@ struct CheckCoating {
     }
 };
 
+struct CheckReflectance {
+    std::string where = "sensor.reflectance";
+
+    void share(const std::string& field, double value) const {
+        require(value >= 0.0 && value <= 1.0, field, value, "not a usable reflectance",
+                "a share from 0 to 1");
+    }
+    void operator()(const UniformReflectance& uniform) const { share(where, uniform.share); }
+    void operator()(const ReflectanceTable& table) const {
+        if (table.entries.empty())
+            refuse(where + ".table", "no entries", "none", "at least one [nm, share]");
+        double before = 0.0;
+        for (std::size_t i = 0; i < table.entries.size(); ++i) {
+            const ReflectanceAt& at = table.entries[i];
+            const std::string field = fmt::format("{}.table[{}]", where, i + 1);
+            require(at.wavelength_nm > before && std::isfinite(at.wavelength_nm), field,
+                    at.wavelength_nm, "not a usable wavelength", "wavelengths in nm that rise");
+            share(field, at.share);
+            before = at.wavelength_nm;
+        }
+    }
+    void operator()(const SensorFilms& films) const {
+        CheckCoating{where}(films.stack);
+        check_medium(films.substrate, where + ".substrate", 0.0);
+    }
+};
+
 void check_surface(const Surface& surface, const std::string& where) {
     std::visit(CheckCurve{where}, surface.curve);
     require(std::abs(surface.conic) <= largest_conic, where + ".conic", surface.conic,
@@ -190,6 +217,7 @@ void validate(const Prescription& lens) {
     check_stop(lens.stop, lens.surfaces.size());
     require_length("sensor.width_mm", lens.sensor.width_mm);
     require_length("sensor.height_mm", lens.sensor.height_mm);
+    if (lens.sensor.reflectance) std::visit(CheckReflectance{}, *lens.sensor.reflectance);
     check_configurations(lens);
 }
 

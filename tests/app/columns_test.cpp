@@ -19,7 +19,27 @@ const Names info_names = {"efl_mm",
                           "exit_pupil_radius_mm",
                           "sensor_distance_mm",
                           "paraxial_defocus_mm",
-                          "ghosts"};
+                          "ghosts",
+                          "front_principal_z_mm",
+                          "rear_principal_z_mm",
+                          "front_nodal_z_mm",
+                          "rear_nodal_z_mm",
+                          "pupil_magnification",
+                          "working_f_number",
+                          "numerical_aperture",
+                          "image_height_mm",
+                          "half_field_deg",
+                          "paraxial_half_field_deg",
+                          "half_field_x_deg",
+                          "half_field_y_deg",
+                          "total_track_mm",
+                          "petzval_per_mm",
+                          "higher_order_share"};
+const Names ray_names = {"surface",    "z_mm",       "n_after", "marginal_y_mm", "marginal_u",
+                         "marginal_i", "chief_y_mm", "chief_u", "chief_i",       "lagrange_mm"};
+const Names curve_names = {"field_deg",     "image_height_mm",      "paraxial_height_mm",
+                           "distortion",    "pupil_area_mm2",       "vignetting",
+                           "transmittance", "relative_illumination"};
 const Names trace_names = {
     "px_mm",     "py_mm",     "status", "x_mm",   "y_mm",          "dx", "dy", "dz",
     "stop_u_mm", "stop_v_mm", "r_rel",  "weight", "weight_average"};
@@ -38,6 +58,28 @@ const Names paraxial_names = {"a",
                               "fresnel_number",
                               "stop_crossings"};
 
+const Names detail_names = {"reflections",
+                            "media_1",
+                            "media_2",
+                            "incidence_1_deg",
+                            "incidence_2_deg",
+                            "largest_incidence_1_deg",
+                            "largest_incidence_2_deg",
+                            "area_mm2",
+                            "pupil_area_mm2",
+                            "x_min_mm",
+                            "x_max_mm",
+                            "y_min_mm",
+                            "y_max_mm",
+                            "peak_per_sun_image",
+                            "vignetting",
+                            "cie_x",
+                            "cie_y",
+                            "srgb",
+                            "converged",
+                            "ghost_pupil_from_sensor_mm",
+                            "ghost_pupil_radius_mm"};
+
 const std::string two_rays = "px_mm,py_mm\n0,0\n17,17\n";
 
 struct Case {
@@ -52,8 +94,15 @@ std::vector<Case> cases() {
     const Names ghosts = {"ghosts", tessar(), "--field", "0", "--top", "2"};
     Names paraxial = ghosts;
     paraxial.emplace_back("--paraxial");
+    Names all = ghosts;
+    all.insert(all.end(), {"--columns", "all"});
+    Names all_names = ghost_names;
+    all_names.insert(all_names.end(), detail_names.begin(), detail_names.end());
+    all_names.insert(all_names.end(), paraxial_names.begin(), paraxial_names.end());
     return {
         {{"info", tessar()}, "", info_names},
+        {{"info", tessar(), "--rays"}, "", ray_names},
+        {{"info", tessar(), "--curves", "--points", "3"}, "", curve_names},
         {{"trace", tessar(), "--ghost", "5-3", "--field", "15", "--rays", "-"},
          two_rays,
          trace_names},
@@ -62,6 +111,7 @@ std::vector<Case> cases() {
          coating_names},
         {ghosts, "", ghost_names},
         {paraxial, "", with_paraxial},
+        {all, "", all_names},
     };
 }
 

@@ -133,10 +133,10 @@ TEST_F(CommandLineOutput, GrazingLightIsReflected) {
 
 TEST_F(CommandLineOutput, HelpNamesOptionsAndUnits) {
     const std::string help = cli_output({"--help"});
-    for (const char* word : {"info", "trace", "coating", "ghosts", "flare", "lenses", "Examples",
+    for (const char* word : {"info", "trace", "coating", "ghosts", "render", "lenses", "Examples",
                              "mm", "nm", "degrees"})
         EXPECT_NE(help.find(word), std::string::npos) << word;
-    for (const char* command : {"info", "trace", "coating", "ghosts", "flare", "lenses"}) {
+    for (const char* command : {"info", "trace", "coating", "ghosts", "render", "lenses"}) {
         const std::string text = cli_output({command, "--help"});
         EXPECT_NE(text.find(std::string("Usage: ghostlight-cli ") + command), std::string::npos)
             << text;

@@ -31,8 +31,7 @@ void trace_ray_of(const TracePath<double>& path, const BeamFrame& frame, Bundle<
             b.stop_v_mm[crossing][i] = at.y;
             ++crossing;
         } else {
-            r2_rel = larger(
-                r2_rel, (at.x * at.x + at.y * at.y) * (step.inverse_clear * step.inverse_clear));
+            r2_rel = larger(r2_rel, ghostlight::r2_rel(step, at));
         }
         const glm::dvec3 before = ray.direction;
         const double cos2_squared = turn(step, meeting, ray);

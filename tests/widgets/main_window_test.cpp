@@ -274,7 +274,8 @@ TEST(MainWindow, Exports) {
     EXPECT_EQ(window.banner().text(), "");
     QFile csv(written["csv"]);
     ASSERT_TRUE(csv.open(QIODevice::ReadOnly));
-    EXPECT_EQ(csv.readAll().toStdString(), ghost_table_csv(*window.ghost_panel().model().table()));
+    EXPECT_EQ(csv.readAll().toStdString(),
+              ghost_table_csv(*window.ghost_panel().model().table(), GhostColumns::all));
     EXPECT_GT(QFile(written["exr"]).size(), 1000);
     EXPECT_FALSE(QImage(written["png"]).isNull());
     // Where nothing can be written, the reason is shown.

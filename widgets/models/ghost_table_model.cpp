@@ -40,6 +40,15 @@ constexpr std::array<ColumnText, GhostTableModel::column_count> columns = {{
      "Share of the flux inside the sensor's rectangle."},
     {"R1 %", "reflectance_1", "first reflectance", "Mean reflectance at the first reflection."},
     {"R2 %", "reflectance_2", "second reflectance", "Mean reflectance at the second reflection."},
+    {"Angle 1 °", "incidence_1_deg", "first angle of incidence",
+     "Mean angle of incidence at the first reflection, in the medium the light comes from."},
+    {"Angle 2 °", "incidence_2_deg", "second angle of incidence",
+     "Mean angle of incidence at the second reflection, in the medium the light comes from."},
+    {"Focus mm", "focus_from_sensor_mm", "ghost focus",
+     "Where a collimated beam meets along the ghost's path, to first order;\n"
+     "negative before the sensor."},
+    {"Width mm", "x_extent_mm", "width", "Extent on the sensor plane, horizontal."},
+    {"Height mm", "y_extent_mm", "height", "Extent on the sensor plane, vertical."},
     {"Rays", "rays", "rays", "Rays traced for this row's numbers."},
 }};
 
@@ -82,9 +91,19 @@ double GhostTableModel::number(const GhostRow& row, int column) const {
         case on_sensor:
             return row.on_sensor;
         case reflectance_1:
-            return row.reflectance_1;
+            return row.turns[0].reflectance;
         case reflectance_2:
-            return row.reflectance_2;
+            return row.turns[1].reflectance;
+        case incidence_1:
+            return row.turns[0].incidence_deg;
+        case incidence_2:
+            return row.turns[1].incidence_deg;
+        case focus:
+            return row.paraxial.focus_from_sensor_mm;
+        case width:
+            return row.box.empty() ? 0.0 : row.box.x1_mm - row.box.x0_mm;
+        case height:
+            return row.box.empty() ? 0.0 : row.box.y1_mm - row.box.y0_mm;
         case rays:
             return static_cast<double>(row.rays);
         default:
@@ -103,7 +122,7 @@ QVariant GhostTableModel::data(const QModelIndex& index, int role) const {
         case Qt::DisplayRole:
             switch (column) {
                 case ghost:
-                    return QString::fromStdString(name(ghost_row.path));
+                    return QString::fromStdString(name(ghost_row.path, table_->surface_count));
                 case magnitude:
                     return {};
                 case centroid_x:
@@ -209,7 +228,7 @@ QString GhostTableModel::clipboard_text(const std::vector<int>& rows) const {
     }
     lines << cells.join('\t');
     for (const int k : rows) {
-        cells = {QString::fromStdString(name(row(k).path))};
+        cells = {QString::fromStdString(name(row(k).path, table_->surface_count))};
         for (int column = flux; column < column_count; ++column) {
             if (column != magnitude) {
                 cells << shortest(number(row(k), column));

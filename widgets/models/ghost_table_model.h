@@ -26,6 +26,11 @@ class GhostTableModel : public QAbstractTableModel {
         on_sensor,
         reflectance_1,
         reflectance_2,
+        incidence_1,
+        incidence_2,
+        focus,
+        width,
+        height,
         rays,
         column_count
     };

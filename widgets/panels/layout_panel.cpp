@@ -78,6 +78,7 @@ void LayoutPanel::show_lens(const Prescription& configured, const LightDirection
         clear();
         return;
     }
+    surface_count_ = configured.surfaces.size();
     std::optional<OpticalSystem> system;
     failure_.clear();
     try {
@@ -95,7 +96,7 @@ void LayoutPanel::show_lens(const Prescription& configured, const LightDirection
         const int rays = selected.size() > 1 ? many_ghost_rays : ghost_rays;
         for (std::size_t i = 0; i < std::min(selected.size(), most_ghosts); ++i) {
             const bool exists = std::ranges::all_of(selected[i].reflections, [&](std::size_t row) {
-                return row < compiled->surfaces.size();
+                return row < turning_count(*compiled);
             });
             if (exists && !selected[i].is_direct()) {
                 fans.push_back(ray_fan(*compiled, selected[i], light.field_deg, rays, lead));
@@ -148,7 +149,7 @@ void LayoutPanel::show_state() {
     QString first;
     for (const RayFan& fan : view_->fans()) {
         if (!fan.path.is_direct()) {
-            first = ghosts++ == 0 ? QString::fromStdString(name(fan.path)) : first;
+            first = ghosts++ == 0 ? QString::fromStdString(name(fan.path, surface_count_)) : first;
             rays += fan.rays;
         }
     }

@@ -49,7 +49,8 @@ class LayoutPanel : public QWidget {
     QString lens_name_;
     QStringList surface_texts_;  ///< what the header says of each surface
     QString direct_text_;
-    QString failure_;  ///< why there are no rays
+    QString failure_;                ///< why there are no rays
+    std::size_t surface_count_ = 0;  ///< of the lens shown; the next one is its sensor
     int hovered_row_ = 0;
 };
 

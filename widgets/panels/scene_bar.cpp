@@ -54,9 +54,13 @@ SceneBar::SceneBar(Document& document, QWidget* parent)
                                 "Of the light: D65, A, E, a black body (5500 K) or one wavelength "
                                 "(587.5618 nm)",
                                 true)),
-      tolerance_(new NumberField("Tolerance", " %",
+      tolerance_(new NumberField("Table within", " %",
                                  "Each flux of the ghost table is refined until its own error "
-                                 "estimate is below this share of it.")) {
+                                 "estimate is below this share of it.")),
+      flare_tolerance_(new NumberField(
+          "Flare within", " %",
+          "The flare at rest is drawn with the least work that keeps its error below this share "
+          "of its light (relative L1 over the sensor).")) {
     setObjectName("scene_bar");
     setMovable(false);
     setFloatable(false);
@@ -73,7 +77,8 @@ SceneBar::SceneBar(Document& document, QWidget* parent)
     row->addSpacing(8);
     for (QWidget* field : {static_cast<QWidget*>(configuration_), static_cast<QWidget*>(f_number_),
                            static_cast<QWidget*>(field_), static_cast<QWidget*>(azimuth_),
-                           static_cast<QWidget*>(spectrum_), static_cast<QWidget*>(tolerance_)}) {
+                           static_cast<QWidget*>(spectrum_), static_cast<QWidget*>(tolerance_),
+                           static_cast<QWidget*>(flare_tolerance_)}) {
         row->addWidget(field);
     }
     row->addStretch(1);
@@ -148,18 +153,9 @@ void SceneBar::connect_fields() {
             set_f_number(std::round(next * 100.0) / 100.0);
         }
     });
-    connect(tolerance_, &NumberField::entered, this, [this](const QString& text) {
-        attempt(*tolerance_, [&] {
-            const double percent = read_positive(text, "per cent, from 0.001 to 50");
-            if (percent < 1e-3 || percent > 50.0) {
-                throw Error(
-                    {"out of range", {}, {}, text.toStdString(), "per cent, from 0.001 to 50"});
-            }
-            Scene scene = document_.scene();
-            scene.tolerance = percent / 100.0;
-            document_.edit_scene(scene, "change tolerance", "tolerance");
-        });
-    });
+    connect_tolerance(*tolerance_, &Scene::tolerance, "change table tolerance", "tolerance");
+    connect_tolerance(*flare_tolerance_, &Scene::flare_tolerance, "change flare tolerance",
+                      "flare tolerance");
     connect(spectrum_, &ChoiceField::entered, this, [this](const QString& text) {
         attempt(*spectrum_, [&] {
             Scene scene = document_.scene();
@@ -174,12 +170,30 @@ void SceneBar::connect_fields() {
     });
 }
 
+void SceneBar::connect_tolerance(NumberField& field, double Scene::*share, const QString& what,
+                                 const QString& key) {
+    connect(
+        &field, &NumberField::entered, this, [this, &field, share, what, key](const QString& text) {
+            attempt(field, [&] {
+                const double percent = read_positive(text, "per cent, from 0.001 to 50");
+                if (percent < 1e-3 || percent > 50.0) {
+                    throw Error(
+                        {"out of range", {}, {}, text.toStdString(), "per cent, from 0.001 to 50"});
+                }
+                Scene scene = document_.scene();
+                scene.*share = percent / 100.0;
+                document_.edit_scene(scene, what, key);
+            });
+        });
+}
+
 void SceneBar::follow_document() {
     show_title();
     const bool empty = document_.is_empty();
-    for (QWidget* field : {static_cast<QWidget*>(f_number_), static_cast<QWidget*>(field_),
-                           static_cast<QWidget*>(azimuth_), static_cast<QWidget*>(spectrum_),
-                           static_cast<QWidget*>(tolerance_)}) {
+    for (QWidget* field :
+         {static_cast<QWidget*>(f_number_), static_cast<QWidget*>(field_),
+          static_cast<QWidget*>(azimuth_), static_cast<QWidget*>(spectrum_),
+          static_cast<QWidget*>(tolerance_), static_cast<QWidget*>(flare_tolerance_)}) {
         field->setVisible(!empty);
     }
     const auto& configurations = document_.lens().configurations;
@@ -198,7 +212,9 @@ void SceneBar::follow_document() {
     field_->set_text(angle_text(scene.light.field_deg));
     azimuth_->set_text(angle_text(scene.light.azimuth_deg));
     spectrum_->set_text(QString::fromStdString(name(scene.spectrum)));
-    tolerance_->set_text(shortest(std::round(scene.tolerance * 1e7) / 1e5));
+    const auto percent = [](double share) { return shortest(std::round(share * 1e7) / 1e5); };
+    tolerance_->set_text(percent(scene.tolerance));
+    flare_tolerance_->set_text(percent(scene.flare_tolerance));
     try {
         shown_f_number_ = first_order(compile(document_.configured_lens(), d_line_nm)).f_number;
         f_number_->set_text(at_least_decimals(std::round(shown_f_number_ * 100.0) / 100.0, 1));

@@ -7,6 +7,7 @@ namespace ghostlight {
 class ChoiceField;
 class Document;
 class NumberField;
+struct Scene;
 class TabularLabel;
 
 /// What is looked at, in one row: the lens's name, its configuration and f-number, the light.
@@ -19,6 +20,7 @@ class SceneBar : public QToolBar {
     NumberField& field() { return *field_; }
     NumberField& azimuth() { return *azimuth_; }
     NumberField& tolerance() { return *tolerance_; }
+    NumberField& flare_tolerance() { return *flare_tolerance_; }
     ChoiceField& spectrum() { return *spectrum_; }
     ChoiceField& configuration() { return *configuration_; }
 
@@ -28,6 +30,8 @@ class SceneBar : public QToolBar {
 
    private:
     void connect_fields();
+    void connect_tolerance(NumberField& field, double Scene::*share, const QString& what,
+                           const QString& key);
     void follow_document();
     void show_title();
     /// Runs an edit that throws Error for a text that cannot be taken.
@@ -45,6 +49,7 @@ class SceneBar : public QToolBar {
     NumberField* azimuth_;
     ChoiceField* spectrum_;
     NumberField* tolerance_;
+    NumberField* flare_tolerance_;
     double shown_f_number_ = 0.0;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/instruction_set.h"
 #include "core/parallel.h"
 #include "widgets/document.h"
 #include "widgets/number_text.h"
@@ -22,6 +23,7 @@ StatusLine::StatusLine(Document& document, QWidget* parent)
       document_(document),
       table_(new TabularLabel),
       timing_(new TabularLabel),
+      picture_(new TabularLabel),
       message_(new TabularLabel),
       engine_(new TabularLabel),
       saved_(new TabularLabel) {
@@ -32,18 +34,22 @@ StatusLine::StatusLine(Document& document, QWidget* parent)
     row->setSpacing(32);
     row->addWidget(table_);
     row->addWidget(timing_);
+    row->addWidget(picture_);
     row->addWidget(message_);
     row->addStretch();
     row->addWidget(engine_);
     row->addWidget(saved_);
     timing_->setToolTip("From the last change to its first picture on screen");
     const unsigned threads = default_thread_count();
-    engine_->set_text(
-        QStringLiteral("CPU · %1 thread%2").arg(threads).arg(threads == 1 ? "" : "s"));
+    engine_->set_text(QStringLiteral("CPU %1 · %2 thread%3")
+                          .arg(instruction_set_name())
+                          .arg(threads)
+                          .arg(threads == 1 ? "" : "s"));
     connect(&document_, &Document::changed, this, &StatusLine::follow_document);
     connect(&document_, &Document::opened, this, [this] {
         table_->set_text({});
         timing_->set_text({});
+        picture_->set_text({});
     });
     connect(&document_, &Document::file_changed, this, &StatusLine::show_saved);
     show_saved();
@@ -67,6 +73,7 @@ void StatusLine::show_progress(double share) {
 }
 
 void StatusLine::show_picture(const FlarePicture& picture, double upload_ms) {
+    show_plan(picture.image->plan);
     if (picture.revision == timed_revision_) {
         return;  // the finer picture of the same change
     }
@@ -75,10 +82,25 @@ void StatusLine::show_picture(const FlarePicture& picture, double upload_ms) {
                                 std::chrono::steady_clock::now() - picture.changed_at)
                                 .count();
     const FlareTimes& times = picture.image->times;
-    timing_->set_text(QStringLiteral("*%1 ms* trace %2 · raster %3 · show %4")
-                          .arg(milliseconds(total_ms),
-                               milliseconds(times.bounds_ms + times.trace_ms),
-                               milliseconds(times.raster_ms), milliseconds(upload_ms)));
+    timing_->set_text(
+        QStringLiteral("*%1 ms* trace %2 · raster %3 · show %4")
+            .arg(milliseconds(total_ms), milliseconds(times.bounds_ms + times.trace_ms),
+                 milliseconds(times.raster_ms + times.composite_ms), milliseconds(upload_ms)));
+}
+
+void StatusLine::show_plan(const FlarePlan& plan) {
+    const std::size_t drawn = plan.count(GhostFate::drawn);
+    picture_->set_text(QStringLiteral("flare within *%1 %* · %2 of %3 ghosts drawn")
+                           .arg(significant(100.0 * plan.estimated_error(), 2))
+                           .arg(drawn)
+                           .arg(plan.ghosts.size()));
+    picture_->setToolTip(
+        QStringLiteral("Estimated error of the ghost layer, L1 over its light on the sensor "
+                       "(%1 % allowed).\n%2 ghosts land beside the sensor, through %3 no ray was "
+                       "found to pass; nothing else is left out.")
+            .arg(significant(100.0 * plan.tolerance, 2))
+            .arg(plan.count(GhostFate::off_sensor))
+            .arg(plan.count(GhostFate::nothing_passes)));
 }
 
 void StatusLine::show_message(const QString& message) { message_->set_text(message); }
@@ -86,6 +108,8 @@ void StatusLine::show_message(const QString& message) { message_->set_text(messa
 QString StatusLine::timing_text() const { return timing_->text().remove('*'); }
 
 QString StatusLine::table_text() const { return table_->text().remove('*'); }
+
+QString StatusLine::picture_text() const { return picture_->text().remove('*'); }
 
 void StatusLine::follow_document() {
     message_->set_text({});

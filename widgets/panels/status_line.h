@@ -25,14 +25,17 @@ class StatusLine : public QWidget {
     void show_message(const QString& message);
     QString timing_text() const;
     QString table_text() const;
+    QString picture_text() const;
 
    private:
     void follow_document();
     void show_saved();
+    void show_plan(const FlarePlan& plan);
 
     Document& document_;
     TabularLabel* table_;
     TabularLabel* timing_;
+    TabularLabel* picture_;
     TabularLabel* message_;
     TabularLabel* engine_;
     TabularLabel* saved_;

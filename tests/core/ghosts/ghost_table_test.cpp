@@ -54,7 +54,8 @@ TEST(GhostTable, RowsAreOrderedAndMeasuredAgainstTheImage) {
         EXPECT_EQ(r.relative_flux, r.flux_mm2 / table.direct.flux_mm2);
         EXPECT_GE(r.on_sensor, 0.0);
         EXPECT_LE(r.on_sensor, 1.0 + 1e-12);
-        EXPECT_TRUE(r.reflectance_1 >= 0.0 && r.reflectance_1 <= 1.0) << r.reflectance_1;
+        EXPECT_TRUE(r.turns[0].reflectance >= 0.0 && r.turns[0].reflectance <= 1.0)
+            << r.turns[0].reflectance;
     }
     EXPECT_EQ(table.direct.relative_flux, 1.0);
 }

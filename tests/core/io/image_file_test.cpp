@@ -36,14 +36,22 @@ class ImageFile : public testing::Test {
 
 TEST_F(ImageFile, ExrHoldsTheFloatsUpright) {
     const fs::path file = folder / "flare.exr";
-    write_exr(image, file, "a lens at 5°");
+    write_exr(image, file,
+              {.lens = "a lens",
+               .configuration = {},
+               .spectrum = "D65",
+               .wavelengths_nm = {450, 550.5},
+               .light = {5.0, 90.0}});
     const auto in = OIIO::ImageInput::open(file.string());
     ASSERT_TRUE(in);
     const OIIO::ImageSpec& spec = in->spec();
     EXPECT_EQ(spec.width, 3);
     EXPECT_EQ(spec.height, 2);
     EXPECT_EQ(spec.format, OIIO::TypeDesc(OIIO::TypeDesc::FLOAT));
-    EXPECT_EQ(spec.get_string_attribute("ImageDescription"), "a lens at 5°");
+    EXPECT_EQ(spec.get_string_attribute("ImageDescription"),
+              "a lens, D65, field 5 deg, azimuth 90 deg");
+    EXPECT_EQ(spec.get_string_attribute("ghostlight:wavelengths_nm"), "450 550.5");
+    EXPECT_EQ(spec.get_string_attribute("Software").substr(0, 11), "Ghostlight ");
     std::vector<float> data(24);
     ASSERT_TRUE(in->read_image(0, 0, 0, 4, OIIO::TypeDesc::FLOAT, data.data()));
     const std::vector<float> upright = upright_picture(image.irradiance, 3, 2, 1);
@@ -60,7 +68,7 @@ TEST_F(ImageFile, ExrHoldsTheFloatsUpright) {
 
 TEST_F(ImageFile, PngIsTheToneMappedPicture) {
     const fs::path file = folder / "flare.png";
-    write_png(image, 0.5, file);
+    write_display(image, 0.5, file);
     const auto in = OIIO::ImageInput::open(file.string());
     ASSERT_TRUE(in);
     ASSERT_EQ(in->spec().nchannels, 3);
@@ -78,7 +86,7 @@ TEST_F(ImageFile, AFailingWriteLeavesNothing) {
     error_of([&] { write_exr(image, folder / "none" / "flare.exr"); });
     image.rgb.pop_back();
     error_of([&] { write_exr(image, folder / "flare.exr"); });
-    error_of([&] { write_png(FlareImage{}, 0.0, folder / "flare.png"); });
+    error_of([&] { write_display(FlareImage{}, 0.0, folder / "flare.png"); });
     EXPECT_TRUE(fs::is_empty(folder));
 }
 

@@ -16,7 +16,7 @@ GhostTable small_table() {
     GhostRow ghost;
     ghost.path.reflections = {4, 2};
     ghost.flux_mm2 = 1e-7;
-    ghost.reflectance_1 = 0.0125;
+    ghost.turns[0].reflectance = 0.0125;
     ghost.rays = 400;
     table.ghosts.push_back(ghost);
     return table;

@@ -1,0 +1,187 @@
+#include "core/flare/draw_picture.h"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "core/flare/picture_levels.h"
+#include "core/parallel.h"
+
+namespace ghostlight {
+namespace {
+
+constexpr int band_rows = 16;
+
+using Clock = std::chrono::steady_clock;
+double ms_since(Clock::time_point began) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - began).count();
+}
+
+/// Which bands of its level's picture each item touches, by counting sort.
+struct ByBand {
+    std::vector<std::uint32_t> first, sorted;
+
+    template <class Item, class RangeOf>
+    void sort(const std::vector<Item>& items, int bands, RangeOf range_of) {
+        first.assign(static_cast<std::size_t>(bands) + 1, 0);
+        for (const Item& item : items) {
+            const auto [low, high] = range_of(item);
+            for (int b = low; b <= high; ++b) ++first[static_cast<std::size_t>(b) + 1];
+        }
+        for (std::size_t b = 1; b < first.size(); ++b) first[b] += first[b - 1];
+        sorted.resize(first.back());
+        std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+        for (std::uint32_t i = 0; i < items.size(); ++i) {
+            const auto [low, high] = range_of(items[i]);
+            for (int b = low; b <= high; ++b) sorted[next[static_cast<std::size_t>(b)]++] = i;
+        }
+    }
+    std::span<const std::uint32_t> of(int band) const {
+        const auto b = static_cast<std::size_t>(band);
+        return {sorted.data() + first[b], sorted.data() + first[b + 1]};
+    }
+};
+
+int band_count(const RasterSize& size) { return (size.height_px + band_rows - 1) / band_rows; }
+
+template <int C>
+struct BandedGhost {
+    const ColorMesh<C>* mesh = nullptr;
+    ByBand edges, points;
+
+    void sort(const DrawnGhost<C>& ghost, const PixelFrame& frame) {
+        mesh = &ghost.mesh;
+        const RasterSize size = level_size(frame, ghost.level);
+        auto band_of = [&](double y) {
+            return static_cast<int>(
+                       std::clamp(y * size.scale + size.margin_px, 0.0, size.height_px - 0.5)) /
+                   band_rows;
+        };
+        edges.sort(mesh->edges, band_count(size), [&](const ColorEdge<C>& e) {
+            return std::pair{band_of(std::min(e.y0, e.y1)), band_of(std::max(e.y0, e.y1))};
+        });
+        points.sort(mesh->points, band_count(size), [&](const ColorPoint<C>& p) {
+            return std::pair{band_of(p.y), band_of(p.y)};
+        });
+    }
+};
+
+/// Draws all ghosts, level by level, and brings the levels together; C values a pixel.
+template <int C>
+std::optional<std::vector<float>> draw_levels(const std::vector<DrawnGhost<C>>& ghosts,
+                                              const PixelFrame& frame, unsigned threads,
+                                              const std::stop_token& stop, FlareTimes& times) {
+    const auto rastered = Clock::now();
+    struct Task {
+        int level, band;
+    };
+    std::vector<std::vector<float>> pictures(picture_levels);
+    std::vector<BandedGhost<C>> banded(ghosts.size());
+    if (!parallel_for(ghosts.size(), threads, stop,
+                      [&](std::size_t g) { banded[g].sort(ghosts[g], frame); }))
+        return std::nullopt;
+    std::vector<std::vector<const BandedGhost<C>*>> at_level(picture_levels);
+    for (std::size_t g = 0; g < ghosts.size(); ++g)
+        if (!ghosts[g].mesh.edges.empty() || !ghosts[g].mesh.points.empty())
+            at_level[static_cast<std::size_t>(ghosts[g].level)].push_back(&banded[g]);
+    std::vector<Task> tasks;
+    for (int level = 0; level < picture_levels; ++level) {
+        const RasterSize size = level_size(frame, level);
+        pictures[static_cast<std::size_t>(level)].assign(
+            static_cast<std::size_t>(size.width_px) * static_cast<std::size_t>(size.height_px) * C,
+            0.0F);
+        if (at_level[static_cast<std::size_t>(level)].empty()) continue;
+        for (int band = 0; band < band_count(size); ++band) tasks.push_back({level, band});
+    }
+    bool finished = parallel_for(tasks.size(), threads, stop, [&](std::size_t t) {
+        const auto [level, b] = tasks[t];
+        const RasterSize size = level_size(frame, level);
+        const int first_row = b * band_rows;
+        const int rows = std::min(band_rows, size.height_px - first_row);
+        ColorBand<C> band(size, first_row, rows);
+        for (const BandedGhost<C>* ghost : at_level[static_cast<std::size_t>(level)]) {
+            band.add(ghost->mesh->edges, ghost->edges.of(b), ghost->mesh->reaches_past_right);
+            for (const std::uint32_t k : ghost->points.of(b)) band.add(ghost->mesh->points[k]);
+        }
+        const std::size_t row_values = static_cast<std::size_t>(size.width_px) * C;
+        band.resolve({pictures[static_cast<std::size_t>(level)].data() +
+                          static_cast<std::size_t>(first_row) * row_values,
+                      static_cast<std::size_t>(rows) * row_values});
+    });
+    if (!finished) return std::nullopt;
+    times.raster_ms += ms_since(rastered);
+
+    const auto composed = Clock::now();
+    int coarsest = 0;
+    for (int level = 0; level < picture_levels; ++level)
+        if (!at_level[static_cast<std::size_t>(level)].empty()) coarsest = level;
+    for (int level = coarsest - 1; level >= 0; --level) {
+        const RasterSize size = level_size(frame, level), coarser = level_size(frame, level + 1);
+        std::vector<float>& picture = pictures[static_cast<std::size_t>(level)];
+        finished = parallel_for(
+            static_cast<std::size_t>(band_count(size)), threads, stop, [&](std::size_t b) {
+                const int first = static_cast<int>(b) * band_rows;
+                add_coarser_rows<C>(pictures[static_cast<std::size_t>(level) + 1], coarser, size,
+                                    first, std::min(first + band_rows, size.height_px), picture);
+            });
+        if (!finished) return std::nullopt;
+    }
+    times.composite_ms += ms_since(composed);
+    return std::move(pictures[0]);
+}
+
+}  // namespace
+
+FlareImage empty_image(const OpticalSystem& system, const PixelFrame& frame) {
+    FlareImage image;
+    image.width_px = frame.width_px;
+    image.height_px = frame.height_px;
+    image.sensor_width_mm = system.sensor_width_mm;
+    image.sensor_height_mm = system.sensor_height_mm;
+    return image;
+}
+
+template <int C>
+bool draw_picture(const std::vector<DrawnGhost<C>>& ghosts, const PixelFrame& frame,
+                  unsigned threads, const std::stop_token& stop, FlareImage& image) {
+    const auto picture = draw_levels(ghosts, frame, threads, stop, image.times);
+    if (!picture) return false;
+    const auto composed = Clock::now();
+    const auto width = static_cast<std::size_t>(frame.width_px);
+    const auto height = static_cast<std::size_t>(frame.height_px);
+    image.irradiance.resize(width * height);
+    image.rgb.resize(3 * width * height);
+    std::vector<double> row_sums(height, 0.0);
+    const bool finished = parallel_for(height, threads, stop, [&](std::size_t row) {
+        double sum = 0.0;
+        for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
+            // What rounding leaves below zero is no light; colours outside the gamut stay.
+            const float* from = picture->data() + i * C;
+            image.irradiance[i] = std::max(0.0F, from[C - 1]);
+            for (std::size_t c = 0; c < 3; ++c)
+                image.rgb[3 * i + c] = C == 1 ? image.irradiance[i] : from[c];
+            sum += static_cast<double>(image.irradiance[i]);
+        }
+        row_sums[row] = sum;
+    });
+    for (const double sum : row_sums) image.flux_on_sensor_mm2 += sum * frame.pixel_area_mm2();
+    image.times.composite_ms += ms_since(composed);
+    return finished;
+}
+template bool draw_picture(const std::vector<DrawnGhost<gray_channels>>&, const PixelFrame&,
+                           unsigned, const std::stop_token&, FlareImage&);
+template bool draw_picture(const std::vector<DrawnGhost<color_channels>>&, const PixelFrame&,
+                           unsigned, const std::stop_token&, FlareImage&);
+
+bool draw_highlight(const std::vector<DrawnGhost<gray_channels>>& ghosts, const PixelFrame& frame,
+                    unsigned threads, const std::stop_token& stop, FlareImage& image) {
+    auto picture = draw_levels(ghosts, frame, threads, stop, image.times);
+    if (!picture) return false;
+    image.highlight = std::move(*picture);
+    for (float& value : image.highlight) value = std::max(0.0F, value);
+    return true;
+}
+
+}  // namespace ghostlight

@@ -1,0 +1,99 @@
+#include "core/flare/grid_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ghostlight {
+namespace {
+
+std::size_t idx(int i) { return static_cast<std::size_t>(i); }
+
+double inverse_square(double nm) { return 1.0 / (nm * nm); }
+
+}  // namespace
+
+ColorAxis::ColorAxis(const std::vector<SpectralSample>& samples) {
+    const double first = inverse_square(samples.front().wavelength_nm);
+    const double last = inverse_square(samples.back().wavelength_nm);
+    low_ = std::min(first, last);
+    span_ = std::abs(last - first);
+}
+
+double ColorAxis::at(double wavelength_nm) const {
+    return span_ > 0.0 ? (inverse_square(wavelength_nm) - low_) / span_ : 0.5;
+}
+
+double ColorAxis::wavelength_nm(double at) const { return 1.0 / std::sqrt(low_ + at * span_); }
+
+double band_weight(double t, int band, int bands) {
+    const double at = std::clamp(t * bands - 0.5, 0.0, bands - 1.0);
+    return std::max(0.0, 1.0 - std::abs(at - band));
+}
+
+void fill_failed(const MirrorGrid& grid, int channels, std::vector<float>& values) {
+    const int across = grid.half_side(), rows = grid.side();
+    for (int j = 0; j < rows; ++j)
+        for (int i = 0; i < across; ++i) {
+            const int k = j * across + i;
+            if (grid.half.margin[idx(k)] >= 0.0F) continue;
+            int count = 0;
+            for (int c = 0; c < channels; ++c) values[idx(k * channels + c)] = 0.0F;
+            for (int n = std::max(0, j - 1); n <= std::min(rows - 1, j + 1); ++n)
+                for (int m = std::max(0, i - 1); m <= std::min(across - 1, i + 1); ++m) {
+                    const int other = n * across + m;
+                    if (grid.half.margin[idx(other)] < 0.0F) continue;
+                    ++count;
+                    for (int c = 0; c < channels; ++c)
+                        values[idx(k * channels + c)] += values[idx(other * channels + c)];
+                }
+            for (int c = 0; c < channels && count > 0; ++c)
+                values[idx(k * channels + c)] /= static_cast<float>(count);
+        }
+}
+
+void correct_means(const MirrorGrid& grid, int channels, std::vector<float>& values) {
+    const std::vector<float> given = values;
+    const int across = grid.half_side(), rows = grid.side();
+    auto at = [&](int i, int j, int c) {
+        return given[idx((j * across + std::abs(i)) * channels + c)];
+    };
+    for (int j = 0; j < rows; ++j)
+        for (int i = 0; i < across; ++i) {
+            const int m = std::min(i, across - 2), n = std::clamp(j, 1, rows - 2);
+            for (int c = 0; c < channels; ++c) {
+                const float along = at(m - 1, j, c) - 2.0F * at(m, j, c) + at(m + 1, j, c);
+                const float up = at(i, n - 1, c) - 2.0F * at(i, n, c) + at(i, n + 1, c);
+                const float own = at(i, j, c);
+                // Where the correction is large the values are too rough for it.
+                values[idx((j * across + i) * channels + c)] =
+                    own -
+                    std::clamp((along + up) / 12.0F, -0.2F * std::abs(own), 0.2F * std::abs(own));
+            }
+        }
+}
+
+void interpolate(const MirrorGrid& from, const std::vector<float>& values, int channels, int cells,
+                 std::vector<float>& nodes) {
+    const int across = from.half_side(), side = cells + 1;
+    nodes.resize(idx(side * side * channels));
+    for (int j = 0; j < side; ++j) {
+        const float y = static_cast<float>(j * from.cells) / static_cast<float>(cells);
+        const int j0 = std::min(static_cast<int>(y), from.cells - 1);
+        const float fy = y - static_cast<float>(j0);
+        for (int i = 0; i < side; ++i) {
+            const float x =
+                std::abs(static_cast<float>(i * from.cells) / static_cast<float>(cells) -
+                         0.5F * static_cast<float>(from.cells));
+            const int i0 = std::min(static_cast<int>(x), across - 2);
+            const float fx = x - static_cast<float>(i0);
+            const float* low = values.data() + (j0 * across + i0) * channels;
+            const float* high = low + across * channels;
+            float* to = nodes.data() + (j * side + i) * channels;
+            for (int c = 0; c < channels; ++c)
+                to[c] = std::lerp(std::lerp(low[c], low[channels + c], fx),
+                                  std::lerp(high[c], high[channels + c], fx), fy);
+        }
+    }
+}
+
+}  // namespace ghostlight
