@@ -374,8 +374,8 @@ GhostPlanner::Fineness GhostPlanner::choose(const ProbedGhost& ghost) const {
     auto allowed = [&](double share) { return unsaturated(share * spread, flux); };
 
     Fineness chosen;
-    // Cells below half a pixel show nothing more.
-    const int finest = std::clamp(static_cast<int>(2.0 * std::sqrt(first.area_px2)),
+    // Cells below half a pixel show nothing more. An even number of them, for mirror symmetry.
+    const int finest = std::clamp(4 * static_cast<int>(0.5 * std::sqrt(first.area_px2)),
                                   2 * first.cells, finest_cells);
     chosen.cells = std::min(finest, cells_for(first.cells, first.grid_mm2, allowed(grid_share)));
     // Bands overlap by hats, so that what is left of merging falls fourfold on doubling them.
