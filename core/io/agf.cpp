@@ -162,10 +162,7 @@ class Reader {
         glass.medium.dispersion = std::move(draft.formula);
         complete_glass(glass);
         if (glass.nd && glass.listed_nd && std::abs(*glass.nd - *glass.listed_nd) > index_agreement)
-            note(glass.where,
-                 fmt::format("{}: the formula gives nd {:.6f}, the catalogue lists {}",
-                             glass.medium.name, *glass.nd, *glass.listed_nd),
-                 Note::Fate::noticed, true);
+            result_.notes.push_back(index_disagreement(glass));
         result_.glasses.push_back(std::move(glass));
     }
 

@@ -1,5 +1,7 @@
 #include "core/io/catalogued_glass.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 
@@ -33,6 +35,16 @@ std::optional<double> known_nd(const CataloguedGlass& glass) {
 
 std::optional<double> known_vd(const CataloguedGlass& glass) {
     return glass.vd ? glass.vd : glass.listed_vd;
+}
+
+Note index_disagreement(const CataloguedGlass& glass) {
+    return {Note::Severity::warning,
+            glass.where,
+            fmt::format("{}: the formula gives nd {:.6f}, the catalogue lists {}",
+                        glass.medium.name, glass.nd.value(), glass.listed_nd.value()),
+            Note::Fate::noticed,
+            true,
+            "compare with the maker's data sheet: the formula is used"};
 }
 
 }  // namespace ghostlight

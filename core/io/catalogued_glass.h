@@ -48,4 +48,7 @@ struct GlassFile {
 /// another melt.
 inline constexpr double index_agreement = 1e-4;
 
+/// Says that the glass's formula and its listed nd, both known, do not agree.
+Note index_disagreement(const CataloguedGlass& glass);
+
 }  // namespace ghostlight

@@ -22,14 +22,6 @@ std::string below_of(std::string_view parent, std::string_view name) {
     return parent.empty() ? std::string(name) : fmt::format("{}/{}", parent, name);
 }
 
-/// Pairs of coefficients follow a leading one; formula 4 begins with two groups of four, and from
-/// 7 on each coefficient has its own place.
-bool fits_formula(int formula, std::size_t coefficients) {
-    if (formula >= 7) return coefficients >= 1 && coefficients <= (formula == 8 ? 4U : 6U);
-    if (coefficients % 2 == 0) return false;
-    return formula != 4 || coefficients == 1 || coefficients == 5 || coefficients >= 9;
-}
-
 std::string_view fitting_coefficients(int formula) {
     if (formula == 4) return "1, 5, 9, 11, … coefficients";
     if (formula >= 7) return formula == 8 ? "1 to 4 coefficients" : "1 to 6 coefficients";

@@ -93,6 +93,13 @@ FormulaGlass formula_of(const Source& source, const YAML::Node& entry, int numbe
     glass.coefficients = numbers_of(source, entry["coefficients"], "coefficients");
     if (glass.coefficients.empty())
         source.refuse(entry.Mark(), "the formula has no coefficients", "at least one");
+    constexpr std::size_t most = 64;  // the database's longest has 19
+    // What is missing at the end is 0.
+    while (!fits_formula(number, glass.coefficients.size()) && glass.coefficients.size() < most)
+        glass.coefficients.push_back(0.0);
+    if (!fits_formula(number, glass.coefficients.size()))
+        source.refuse(entry.Mark(), "too many coefficients",
+                      fmt::format("those of formula {}", number));
     // Older files say "range".
     const YAML::Node range = entry["wavelength_range"] ? entry["wavelength_range"] : entry["range"];
     if (range) {
@@ -211,6 +218,14 @@ GlassFile material(const Source& source, const std::string& text,
     glass.where = fmt::format("line {}", data.Mark().line + 1);
     if (const YAML::Node comments = root["COMMENTS"]; comments && comments.IsScalar())
         glass.comment = comments.Scalar().substr(0, comments.Scalar().find('\n'));
+    if (const YAML::Node properties = root["PROPERTIES"]; properties && properties.IsMap()) {
+        auto listed = [&](const char* key) {
+            const YAML::Node value = properties[key];
+            return value && value.IsScalar() ? real_number(value.Scalar()) : std::nullopt;
+        };
+        glass.listed_nd = listed("nd");
+        glass.listed_vd = listed("Vd");
+    }
     bool has_index = false;
     for (const YAML::Node& entry : data) take_entry(source, entry, glass, has_index, result.notes);
     if (!has_index)
@@ -218,6 +233,8 @@ GlassFile material(const Source& source, const std::string& text,
                       "a formula or a table of n");
     add_transmittance(glass);
     complete_glass(glass);
+    if (glass.nd && glass.listed_nd && std::abs(*glass.nd - *glass.listed_nd) > index_agreement)
+        result.notes.push_back(index_disagreement(glass));
     result.glasses.push_back(std::move(glass));
     return result;
 }

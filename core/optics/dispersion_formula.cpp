@@ -67,6 +67,12 @@ constexpr std::array<AgfForm, last_agf_formula + 1> agf_forms{{{"", 0},
 
 }  // namespace
 
+bool fits_formula(int formula, std::size_t coefficients) {
+    if (formula >= 7) return coefficients >= 1 && coefficients <= (formula == 8 ? 4U : 6U);
+    if (coefficients % 2 == 0) return false;
+    return formula != 4 || coefficients == 1 || coefficients == 5 || coefficients >= 9;
+}
+
 std::size_t agf_coefficient_count(int formula) {
     if (formula < 1 || formula > last_agf_formula)
         unknown_formula("AGF dispersion", formula, last_agf_formula);
@@ -102,7 +108,8 @@ FormulaValue formula_value(const FormulaGlass& glass, double um) {
         case 4: {
             double value = first;
             for (std::size_t i = 1; i + 3 < c.size() && i < 9; i += 4)
-                value += c[i] * std::pow(um, c[i + 1]) / (um2 - std::pow(c[i + 2], c[i + 3]));
+                if (c[i] != 0.0)
+                    value += c[i] * std::pow(um, c[i + 1]) / (um2 - std::pow(c[i + 2], c[i + 3]));
             return {value + powers(9), true};
         }
         case 5:
