@@ -69,10 +69,11 @@ class Guard : public YAML::EventHandler {
     int depth_ = 0;
 };
 
-std::vector<double> numbers_of(const Source& source, const YAML::Node& node,
-                               std::string_view what) {
+/// The numbers of a field of the entry.
+std::vector<double> numbers_of(const Source& source, const YAML::Node& entry,
+                               const YAML::Node& node, std::string_view what) {
     if (!node || !node.IsScalar())
-        source.refuse(node ? node.Mark() : YAML::Mark::null_mark(), fmt::format("no {}", what),
+        source.refuse(node ? node.Mark() : entry.Mark(), fmt::format("no {}", what),
                       "numbers separated by blanks");
     std::vector<double> numbers;
     for (const WordLine& line : word_lines(node.Scalar()))
@@ -90,7 +91,7 @@ std::vector<double> numbers_of(const Source& source, const YAML::Node& node,
 FormulaGlass formula_of(const Source& source, const YAML::Node& entry, int number) {
     FormulaGlass glass;
     glass.formula = number;
-    glass.coefficients = numbers_of(source, entry["coefficients"], "coefficients");
+    glass.coefficients = numbers_of(source, entry, entry["coefficients"], "coefficients");
     if (glass.coefficients.empty())
         source.refuse(entry.Mark(), "the formula has no coefficients", "at least one");
     constexpr std::size_t most = 64;  // the database's longest has 19
@@ -103,7 +104,7 @@ FormulaGlass formula_of(const Source& source, const YAML::Node& entry, int numbe
     // Older files say "range".
     const YAML::Node range = entry["wavelength_range"] ? entry["wavelength_range"] : entry["range"];
     if (range) {
-        const auto ends = numbers_of(source, range, "wavelength_range");
+        const auto ends = numbers_of(source, entry, range, "wavelength_range");
         if (ends.size() != 2 || !(ends[0] >= 0.0) || !(ends[1] > ends[0]))
             source.refuse(range.Mark(), "not a range of wavelengths", "shortest longest, in µm");
         glass.min_nm = nm_from_um(ends[0]);
