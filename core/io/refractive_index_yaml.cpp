@@ -76,7 +76,8 @@ std::vector<double> numbers_of(const Source& source, const YAML::Node& entry,
         source.refuse(node ? node.Mark() : entry.Mark(), fmt::format("no {}", what),
                       "numbers separated by blanks");
     std::vector<double> numbers;
-    for (const WordLine& line : word_lines(node.Scalar()))
+    WordLines lines(node.Scalar());
+    for (WordLine line; lines.next(line);)
         for (const std::string_view word : line.words) {
             const auto number = real_number(word);
             if (!number)
@@ -122,7 +123,8 @@ std::vector<SpectralTable> tables_of(const Source& source, const YAML::Node& ent
         source.refuse(entry.Mark(), "the table has no data",
                       "lines of wavelength in µm and values");
     std::vector<std::vector<double>> rows;
-    for (const WordLine& line : word_lines(data.Scalar())) {
+    WordLines lines(data.Scalar());
+    for (WordLine line; lines.next(line);) {
         std::vector<double> row;
         for (const std::string_view word : line.words)
             if (const auto number = real_number(word)) row.push_back(*number);
