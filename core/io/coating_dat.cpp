@@ -17,6 +17,7 @@ namespace ghostlight {
 namespace {
 
 constexpr int most_repeats = 1000;
+constexpr std::size_t most_layers = 2000;
 constexpr std::size_t most_definitions = 100'000;  // coating houses' files have some hundreds
 constexpr std::size_t most_rows = 100'000;         // of a TABLE; measured ones have some thousands
 constexpr std::size_t most_angles = 1000;
@@ -210,6 +211,8 @@ class Reader {
                              "thickness everywhere",
                              name_, line.words[4]),
                  true);
+        if (layers_.layers.size() >= most_layers)
+            return drop(line, fmt::format("coating {}: more than {} layers", name_, most_layers));
         layers_.layers.push_back(std::move(layer));
     }
 
