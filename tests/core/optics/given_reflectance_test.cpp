@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 
+#include "core/flare/film_tables.h"
 #include "core/ghosts/bundle.h"
 #include "core/optics/coating.h"
 #include "core/optics/trace.h"
@@ -202,6 +203,37 @@ TEST(GivenReflectance, SingleRaysAndBundlesAgree) {
     const TracedRay axis = trace_ray(system, ghost, {{0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}});
     const double r = 0.5 * (0.010 + 0.004), t = 0.5 * (0.985 + 0.993);
     EXPECT_NEAR(axis.weight, t * 0.2 * r * 0.7, 1e-15);
+}
+
+/// A picture's tables of films over the cosine of incidence, against the trace itself.
+TEST(GivenReflectance, PicturesSeeTheSameShares) {
+    Prescription lens =
+        lens_of({row(60.0, 6.0, 1.6), row(-80.0, 10.0, 1.0), row(0.0, 60.0, 1.0)}, 2);
+    lens.surfaces[0].coating = sheet();
+    lens.surfaces[1].coating = ConstantReflectance{0.2, 0.7};
+    const std::vector<OpticalSystem> systems{compile(lens, 450.0), compile(lens, 600.0)};
+    const FilmTables films(systems, 1);
+    const TracePath<float> path = trace_path<float>(systems[1], GhostPath{{1, 0}});
+    const BeamFrame frame = beam_frame({.field_deg = 10.0, .azimuth_deg = 90.0});
+    Bundle<float> rays;
+    rays.keep_cosines = true;
+    Random random(4);
+    for (int i = 0; i < 64; ++i) {
+        rays.u_mm.push_back(static_cast<float>(random.between(-5.0, 5.0)));
+        rays.v_mm.push_back(static_cast<float>(random.between(-5.0, 5.0)));
+    }
+    trace_bundle(path, frame, Weights::average, rays);
+    std::vector<float> weights;
+    films.weights(path, rays, weights);
+    int compared = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (rays.margin[i] < 0.0F) continue;
+        ++compared;
+        // The tables' own stated accuracy: 1e-3 of R, here twice, and float.
+        EXPECT_NEAR(weights[i * films.stride() + 1], rays.weight_average[i],
+                    2e-3F * rays.weight_average[i]);
+    }
+    EXPECT_GT(compared, 50);
 }
 
 TEST(GivenReflectance, SinglePrecisionFollowsDouble) {
