@@ -4,6 +4,7 @@
 
 #include <charconv>
 
+#include "core/io/coating_json.h"
 #include "core/io/medium_json.h"
 #include "core/io/sensor_json.h"
 
@@ -72,8 +73,8 @@ Surface read_surface(const JsonAt& object, bool is_last) {
     surface.comment = optional_text(object, "comment");
     keep_unknown(object,
                  {"radius_mm", "curvature_per_mm", "conic", "aspheric", "aspheric_mm",
-                  "thickness_mm", "glass", "model", "index", "formula", "unknown_glass",
-                  "semi_diameter_mm", "coating", "comment"},
+                  "thickness_mm", "glass", "model", "index", "formula", "agf", "table",
+                  "transmittance", "unknown_glass", "semi_diameter_mm", "coating", "comment"},
                  surface.unknown);
     surface.medium_after = read_medium(object, surface.unknown);
     if (const auto coating = object.find("coating"))
