@@ -43,7 +43,7 @@ struct Note {
     std::string text;
     Fate fate = Fate::noticed;
     bool matters_for_flare = false;  ///< changes where ghosts land, or how bright they are
-    std::string proposal;            ///< what to do about it; empty when there is nothing to do
+    std::string proposal = {};       ///< what to do about it; empty when there is nothing to do
     bool operator==(const Note&) const = default;
 };
 using Notes = std::vector<Note>;

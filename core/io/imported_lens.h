@@ -16,6 +16,13 @@ struct ImportedSurface {
     std::string where;                       ///< for messages: "line 12", "SURF 5"
 };
 
+/// A field whose beam the lens is meant to pass, and the shares of the pupil's radius that are
+/// vignetted on its upper, lower and lateral sides (CODE V's VUY, VLY, VUX; Zemax' VCY ± VDY).
+struct ImportedField {
+    double field_deg = 0.0;
+    double cut_upper = 0.0, cut_lower = 0.0, cut_sides = 0.0;
+};
+
 /// A lens as a foreign file gives it, before what the file leaves open is worked out. `lens` is
 /// complete but for what the members here say.
 struct ImportedLens {
@@ -27,8 +34,10 @@ struct ImportedLens {
     std::optional<double> entrance_pupil_diameter_mm;
     std::optional<double> f_number;
     std::optional<double> half_field_deg;
+    std::vector<ImportedField> fields;  ///< for sizing; none: up to the half field, no vignetting
     std::optional<double> image_height_mm;  ///< half diagonal
     std::optional<double> stated_efl_mm;    ///< to notice a wrong unit or scale
+    bool has_sensor_size = false;           ///< lens.sensor holds the size that the file states
 };
 
 /// Works out what the file leaves open (stop, semi-diameters from the direct beam over the field,

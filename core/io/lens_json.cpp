@@ -68,11 +68,13 @@ Surface read_surface(const JsonAt& object, bool is_last) {
         surface.thickness_mm = object.at("thickness_mm", thickness).number(thickness);
     constexpr std::string_view semi_diameter = "the clear radius in mm";
     surface.semi_diameter_mm = object.at("semi_diameter_mm", semi_diameter).number(semi_diameter);
+    if (const auto sized = object.find("semi_diameter_sized"))
+        surface.semi_diameter_sized = sized->boolean();
     surface.comment = optional_text(object, "comment");
     keep_unknown(object,
                  {"radius_mm", "curvature_per_mm", "conic", "aspheric", "aspheric_mm",
                   "thickness_mm", "glass", "model", "index", "formula", "unknown_glass",
-                  "semi_diameter_mm", "coating", "comment"},
+                  "semi_diameter_mm", "semi_diameter_sized", "coating", "comment"},
                  surface.unknown);
     surface.medium_after = read_medium(object, surface.unknown);
     if (const auto coating = object.find("coating"))

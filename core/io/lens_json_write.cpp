@@ -64,6 +64,7 @@ Json surface_json(const Surface& surface, bool with_thickness) {
     if (with_thickness) object["thickness_mm"] = surface.thickness_mm;
     write_medium(object, surface.medium_after);
     object["semi_diameter_mm"] = surface.semi_diameter_mm;
+    if (surface.semi_diameter_sized) object["semi_diameter_sized"] = true;
     if (!std::holds_alternative<Uncoated>(surface.coating))
         object["coating"] = write_coating(surface.coating);
     if (!surface.comment.empty()) object["comment"] = surface.comment;

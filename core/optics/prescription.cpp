@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 
@@ -29,6 +30,19 @@ struct CurvatureOf {
 }  // namespace
 
 double curvature_per_mm(const BaseCurve& curve) { return std::visit(CurvatureOf{}, curve); }
+
+double sag_mm(const Surface& surface, double y_mm) {
+    const double c = curvature_per_mm(surface.curve);
+    const double bend = (1.0 + surface.conic) * c * c;
+    const double y2 = bend * y_mm * y_mm > 1.0 ? 1.0 / bend : y_mm * y_mm;
+    double sag = c * y2 / (1.0 + std::sqrt(std::max(0.0, 1.0 - bend * y2)));
+    double power = y2 * y2;
+    for (const double term : surface.aspheric) {
+        sag += term * power;
+        power *= y2;
+    }
+    return sag;
+}
 
 const Medium& medium_before(const Prescription& lens, std::size_t row) {
     static const Medium air;

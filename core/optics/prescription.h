@@ -41,11 +41,17 @@ struct Surface {
     double thickness_mm = 0.0;       ///< to the next vertex; the last one to the sensor
     Medium medium_after;             ///< air by default
     double semi_diameter_mm = 10.0;  ///< clear radius; of the stop's row, its listed radius
+    /// The radius is not the source's: sized to let the direct beam through.
+    bool semi_diameter_sized = false;
     Coating coating = Uncoated{};
     std::string comment;
     UnknownFields unknown;
     bool operator==(const Surface&) const = default;
 };
+
+/// z of a surface relative to its vertex at a height; beyond the end of a sphere or an ellipsoid,
+/// of that end.
+double sag_mm(const Surface& surface, double y_mm);
 
 /// The aperture stop: which row, how far it is closed, and its blades.
 struct Stop {
