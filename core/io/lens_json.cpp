@@ -148,6 +148,9 @@ Configuration read_configuration(const JsonAt& object, std::size_t surfaces) {
     Configuration configuration;
     configuration.name = object.at("name", "a text").text();
     configuration.f_number = optional_number(object, "f_number");
+    configuration.stop_semi_diameter_mm = optional_number(object, "stop_semi_diameter_mm");
+    if (const auto published = object.find("published"))
+        configuration.published = read_published(*published);
     if (const auto thicknesses = object.find("thickness_mm")) {
         const std::string expected = "{\"row\": thickness, …}, with " + row_range(surfaces);
         thicknesses->require_object(expected);
@@ -161,7 +164,9 @@ Configuration read_configuration(const JsonAt& object, std::size_t surfaces) {
                 thicknesses->at(text, expected).number("a thickness in mm");
         }
     }
-    keep_unknown(object, {"name", "f_number", "thickness_mm"}, configuration.unknown);
+    keep_unknown(object,
+                 {"name", "f_number", "stop_semi_diameter_mm", "published", "thickness_mm"},
+                 configuration.unknown);
     return configuration;
 }
 

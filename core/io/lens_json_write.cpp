@@ -79,6 +79,9 @@ Json configuration_json(const Configuration& configuration) {
         thicknesses[fmt::format("{}", row + 1)] = thickness_mm;
     if (!thicknesses.empty()) object["thickness_mm"] = std::move(thicknesses);
     put(object, "f_number", configuration.f_number);
+    put(object, "stop_semi_diameter_mm", configuration.stop_semi_diameter_mm);
+    if (configuration.published != Published{})
+        object["published"] = published_json(configuration.published);
     restore_unknown(object, configuration.unknown);
     return object;
 }

@@ -64,9 +64,13 @@ Prescription configured(const Prescription& lens, std::string_view configuration
                          .expected = fmt::format("1 to {}", result.surfaces.size())});
         result.surfaces[row].thickness_mm = thickness_mm;
     }
-    if (found->f_number) {
-        result.stop.f_number = found->f_number;
+    // A width without an f-number is the stop of this position, whatever the lens as listed has.
+    if (found->stop_semi_diameter_mm) {
+        result.stop.semi_diameter_mm = found->stop_semi_diameter_mm;
+        result.stop.f_number.reset();
     }
+    if (found->f_number) result.stop.f_number = found->f_number;
+    if (found->published != Published{}) result.published = found->published;
     return result;
 }
 

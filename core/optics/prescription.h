@@ -73,20 +73,22 @@ struct Sensor {
     bool operator==(const Sensor&) const = default;
 };
 
-/// A zoom or focus position: what it overrides.
-struct Configuration {
-    std::string name;
-    std::map<std::size_t, double> thickness_mm;  ///< row from 0 → thickness
-    std::optional<double> f_number;
-    UnknownFields unknown;
-    bool operator==(const Configuration&) const = default;
-};
-
 /// What the source states; not used in any computation.
 struct Published {
     std::optional<double> efl_mm, f_number, bfd_mm, half_field_deg;
     UnknownFields unknown;
     bool operator==(const Published&) const = default;
+};
+
+/// A zoom or focus position: what it overrides.
+struct Configuration {
+    std::string name;
+    std::map<std::size_t, double> thickness_mm;  ///< row from 0 → thickness
+    std::optional<double> f_number;              ///< wins over stop_semi_diameter_mm
+    std::optional<double> stop_semi_diameter_mm;
+    Published published;  ///< of this position
+    UnknownFields unknown;
+    bool operator==(const Configuration&) const = default;
 };
 
 /// A lens, as a person edits it and as a file holds it.

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/io/imported_lens.h"
+#include "core/io/text_lines.h"
+
+namespace ghostlight {
+
+/// A surface as a listing gives it.
+struct ListedSurface {
+    Place place = {};
+    double radius_mm = 0.0;  ///< 0 or infinite is a plane
+    double thickness_mm = 0.0;
+    Medium medium_after = {};
+    std::optional<double> semi_diameter_mm = {};  ///< none, 0 and less: to be sized
+    Coating coating = Uncoated{};
+    std::string comment = {};
+};
+
+/// Appends it to the lens, with a line for the report. Throws Error for what cannot be meant: a
+/// negative thickness, a length beyond 1e6 mm, more than 1000 surfaces.
+void append_surface(ImportedLens& lens, const ListedSurface& listed);
+
+/// What the last thickness says of the sensor: its distance, or nothing (then it goes to the
+/// paraxial focus). Throws Error when there is no surface.
+void place_sensor(ImportedLens& lens, std::optional<double> distance_mm, const std::string& file);
+
+/// The lens's focal length at d, by first order; nothing when it has none or cannot be traced.
+std::optional<double> paraxial_efl_mm(const ImportedLens& lens);
+
+}  // namespace ghostlight
