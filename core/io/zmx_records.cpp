@@ -17,8 +17,8 @@ namespace {
 constexpr std::array bookkeeping = {
     "PFIL", "LANG", "GFAC", "RAIM", "PUSH", "SDMA", "ROPD", "PICB", "POLS", "GLRS", "GSTD", "NSCD",
     "TOL",  "FWGN", "FWGT", "WWGT", "WWGN", "HIDE", "MIRR", "SLAB", "POPS", "VDSZ", "VPAR", "VCUR",
-    "PZUP", "MOFF", "COFN", "FCOM", "BLNK", "SCOL", "RSCE", "RWRE", "XFLD", "COCO", "VANN", "VCON",
-    "CGTT", "PPAR", "CCUR", "DMFS", "MEMA", "VXDA", "USAP", "PARX", "BBND", "RTOL", "TOLS", "GRPH",
+    "PZUP", "MOFF", "COFN", "FCOM", "BLNK", "SCOL", "RSCE", "RWRE", "COCO", "VANN", "VCON", "CGTT",
+    "PPAR", "CCUR", "DMFS", "MEMA", "VXDA", "USAP", "PARX", "BBND", "RTOL", "TOLS", "GRPH",
 };
 
 /// Operands of the multi-configuration editor.
