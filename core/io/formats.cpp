@@ -7,6 +7,13 @@
 #include <cctype>
 
 #include "core/error.h"
+#include "core/io/flaresim_lens.h"
+#include "core/io/imported_lens.h"
+#include "core/io/open_lens_flare.h"
+#include "core/io/optical_bench.h"
+#include "core/io/oslo.h"
+#include "core/io/pbrt_lens.h"
+#include "core/io/realflare.h"
 
 namespace ghostlight {
 namespace {
@@ -20,8 +27,22 @@ bool looks_like_json(std::string_view text) {
 }
 std::string write_json(const Prescription& lens, Notes&) { return lens_to_json(lens); }
 
+/// A reader of a foreign format, with what its file leaves open worked out.
+template <ImportedLens (*import)(const FormatSource&)>
+LensFile read_foreign(const FormatSource& source) {
+    return complete_import(import(source), source.file.string());
+}
+
 constexpr std::array formats = {
+    LensFormat{"realflare", ".json", is_realflare, read_foreign<import_realflare>, nullptr},
     LensFormat{"Ghostlight or listing JSON", ".json", looks_like_json, read_json, write_json},
+    LensFormat{"OSLO", ".len", is_oslo, read_foreign<import_oslo>, nullptr},
+    LensFormat{"PhotonsToPhotos Optical Bench", ".txt", is_optical_bench,
+               read_foreign<import_optical_bench>, nullptr},
+    LensFormat{"FlareSim", ".lens", is_flaresim_lens, read_foreign<import_flaresim_lens>, nullptr},
+    LensFormat{"OpenLensFlare", ".xml", is_open_lens_flare, read_foreign<import_open_lens_flare>,
+               nullptr},
+    LensFormat{"pbrt", ".dat", is_pbrt_lens, read_foreign<import_pbrt_lens>, nullptr},
 };
 
 std::string lower_extension(const std::filesystem::path& file) {

@@ -5,10 +5,6 @@
 #include <cmath>
 
 #include "core/io/import_notes.h"
-#include "core/io/json_value.h"
-#include "core/optics/optical_system.h"
-#include "core/optics/paraxial.h"
-#include "core/units.h"
 
 namespace ghostlight {
 namespace {
@@ -41,10 +37,9 @@ void append_surface(ImportedLens& lens, const ListedSurface& listed) {
         place.refuse("not a usable radius", fmt::format("{}", listed.radius_mm),
                      "a radius of at least 1e-6 mm, or a plane");
     if (!is_plane) surface.curve = Radius{listed.radius_mm};
-    if (!(listed.thickness_mm >= 0.0 && listed.thickness_mm <= largest_length_mm))
+    if (!(std::abs(listed.thickness_mm) <= largest_length_mm))
         place.refuse("not a usable thickness", fmt::format("{}", listed.thickness_mm),
-                     "0 to 1e6 mm: a negative one means a mirror or a surface out of order, whose "
-                     "ghosts would be wrong here");
+                     "a length up to 1e6 mm");
     surface.thickness_mm = listed.thickness_mm;
     surface.medium_after = listed.medium_after;
     surface.coating = listed.coating;
@@ -71,16 +66,6 @@ void place_sensor(ImportedLens& lens, std::optional<double> distance_mm, const s
         Place{file, {}}.refuse("the lens has no surfaces", "none", "at least one surface");
     lens.sensor_distance_mm = distance_mm;
     lens.lens.surfaces.back().thickness_mm = distance_mm.value_or(0.0);
-}
-
-std::optional<double> paraxial_efl_mm(const ImportedLens& lens) {
-    try {
-        const double efl = first_order(compile(lens.lens, d_line_nm)).efl_mm;
-        if (std::isfinite(efl)) return efl;
-    } catch (const Error&) {
-        // An unknown glass, say: the report has it already.
-    }
-    return std::nullopt;
 }
 
 }  // namespace ghostlight

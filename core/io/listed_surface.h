@@ -20,14 +20,12 @@ struct ListedSurface {
 };
 
 /// Appends it to the lens, with a line for the report. Throws Error for what cannot be meant: a
-/// negative thickness, a length beyond 1e6 mm, more than 1000 surfaces.
+/// length beyond 1e6 mm, more than 1000 surfaces. A negative thickness is left to
+/// complete_import().
 void append_surface(ImportedLens& lens, const ListedSurface& listed);
 
 /// What the last thickness says of the sensor: its distance, or nothing (then it goes to the
 /// paraxial focus). Throws Error when there is no surface.
 void place_sensor(ImportedLens& lens, std::optional<double> distance_mm, const std::string& file);
-
-/// The lens's focal length at d, by first order; nothing when it has none or cannot be traced.
-std::optional<double> paraxial_efl_mm(const ImportedLens& lens);
 
 }  // namespace ghostlight

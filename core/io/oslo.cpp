@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/io/import_notes.h"
+#include "core/io/import_steps.h"
 #include "core/io/imported_asphere.h"
 #include "core/io/listed_surface.h"
 #include "core/io/oslo_text.h"
@@ -214,14 +215,14 @@ void check_unit(const OsloText& text, ImportedLens& result) {
         note_assumed(result.notes, "UNI", "no UNI: lens units are taken as millimetres");
     else if (text.unit_mm != 1.0)
         note_converted(result.notes, "UNI", fmt::format("lens units of {} mm", text.unit_mm));
-    const auto efl = paraxial_efl_mm(result);
+    const auto order = first_order_of(result.lens);
     constexpr double smallest_camera_lens_mm = 10.0;
-    if (text.unit_mm == 1.0 && efl && std::abs(*efl) < smallest_camera_lens_mm)
+    if (text.unit_mm == 1.0 && order && std::abs(order->efl_mm) < smallest_camera_lens_mm)
         note_noticed(
             result.notes, "UNI",
             fmt::format("UNI 1 means millimetres in files that OSLO wrote, but centimetres "
                         "in some libraries: the focal length is {:.4g} mm",
-                        *efl),
+                        order->efl_mm),
             true, "if the lens is 10 times too small, put UNI 10 in the file");
 }
 
@@ -297,9 +298,10 @@ ImportedLens import_oslo(const FormatSource& source) {
             note_converted(
                 result.notes, text.surfaces[image].place.where,
                 fmt::format("the image surface's own thickness, {} mm, shifts the sensor", shift));
-        if (!(*sensor_mm >= 0.0 && *sensor_mm <= 1e6))
+        if (!(std::abs(*sensor_mm) <= 1e6))
             text.surfaces[image - 1].place.refuse("not a usable distance of the image",
-                                                  fmt::format("{} mm", *sensor_mm), "0 to 1e6 mm");
+                                                  fmt::format("{} mm", *sensor_mm),
+                                                  "a length up to 1e6 mm");
         if (*sensor_mm == 0.0) sensor_mm.reset();
     } else {
         note_read(result.notes, text.surfaces[image - 1].place.where,

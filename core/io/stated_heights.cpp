@@ -6,10 +6,8 @@
 #include <cmath>
 
 #include "core/io/import_notes.h"
+#include "core/io/import_steps.h"
 #include "core/io/text_lines.h"
-#include "core/optics/optical_system.h"
-#include "core/optics/paraxial.h"
-#include "core/units.h"
 
 namespace ghostlight {
 namespace {
@@ -35,16 +33,12 @@ std::size_t impossible(const ImportedLens& lens, double factor) {
 std::optional<double> stop_ratio(const ImportedLens& lens, std::optional<double> f_number) {
     if (!f_number || !lens.stop || !lens.surfaces[*lens.stop].semi_diameter_mm) return std::nullopt;
     Prescription trial = lens.lens;
-    trial.stop = {};
     trial.stop.surface = *lens.stop;
-    try {
-        const FirstOrder order = first_order(compile(trial, d_line_nm));
-        const double wanted = std::abs(order.efl_mm) / (2.0 * *f_number);
-        const double ratio = order.entrance_pupil_radius_mm / wanted;
-        if (std::isfinite(ratio) && ratio > 0.0) return ratio;
-    } catch (const Error&) {
-        // A glass that nobody knows: the report has it already.
-    }
+    const auto order = first_order_of(trial);
+    if (!order) return std::nullopt;
+    const double ratio =
+        order->entrance_pupil_radius_mm * 2.0 * *f_number / std::abs(order->efl_mm);
+    if (std::isfinite(ratio) && ratio > 0.0) return ratio;
     return std::nullopt;
 }
 
