@@ -197,7 +197,9 @@ class ZmxImport {
         auto& semi = imported_.surfaces[row].semi_diameter_mm;
         const std::string surface_text = fmt::format("surface {}", row + 1);
         if (aperture.word == "CLAP" || aperture.word == "FLAP") {
-            if (number(1) > 0.0) {
+            // A floating aperture is the surface's semi-diameter, whoever gave that.
+            const bool floats = aperture.word == "FLAP" && surface(row).diameter;
+            if (number(1) > 0.0 && !floats) {
                 semi = number(1) * mm_;
                 imported_.lens.surfaces[row].semi_diameter_sized = false;
                 if (aperture.word == "CLAP")
