@@ -13,5 +13,6 @@ void add_coating(CLI::App& program);
 void add_ghosts(CLI::App& program);
 void add_flare(CLI::App& program);
 void add_lenses(CLI::App& program);
+void add_convert(CLI::App& program);
 
 }  // namespace ghostlight::cli
