@@ -135,6 +135,10 @@ ImportedLens import_pbrt_lens(const FormatSource& source) {
                                       row.thickness_mm));
     }
     note_converted(result.notes, {}, "diameters are halved to clear radii");
+    note_assumed(result.notes, {},
+                 "the file has no dispersion: every index holds at every wavelength, and ghosts "
+                 "have no coloured rims",
+                 true, "give the glasses their Abbe numbers");
     if (result.stop) result.lens.stop.surface = *result.stop;
     place_sensor(result, std::nullopt, file);
     return result;
