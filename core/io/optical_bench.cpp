@@ -268,6 +268,7 @@ ImportedLens import_optical_bench(const FormatSource& source) {
     add_aspheres(text, result);
     read_fields(text, first, result);
     if (positions.size() > 1) add_configurations(text, positions, result);
+    note_surfaces(result);
     return result;
 }
 

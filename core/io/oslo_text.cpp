@@ -165,6 +165,7 @@ bool Reader::read_system(const OsloCommand& command) {
 }
 
 void Reader::read_aperture(const OsloCommand& command) {
+    current.aperture_place = command.place;
     std::string_view value;
     for (const std::string& part : command.parts) {
         if (same_word(part, "CHK"))
@@ -210,7 +211,8 @@ bool Reader::read_asphere(const OsloCommand& command) {
 void Reader::pick_up(const OsloCommand& command) {
     const std::string what = command.parts.empty() ? "" : upper_case(command.parts[0]);
     constexpr std::string_view expected = "CV, CVM, TH, THM, GLA or AP and an earlier surface";
-    const auto from = command.parts.size() < 2 ? std::nullopt : number_after(command.parts[1], "");
+    const int from =
+        command.parts.size() < 2 ? -1 : number_after(command.parts[1], "").value_or(-1);
     const bool known = what == "CV" || what == "CVM" || what == "TH" || what == "THM" ||
                        what == "GLA" || what == "AP";
     const bool plain = std::ranges::all_of(
@@ -219,9 +221,9 @@ void Reader::pick_up(const OsloCommand& command) {
             const auto value = parse_number(part);
             return value && (*value == 0.0 || *value == 1.0);
         });
-    if (!known || !from || static_cast<std::size_t>(*from) >= text.surfaces.size() || !plain)
+    if (!known || from < 0 || static_cast<std::size_t>(from) >= text.surfaces.size() || !plain)
         command.place.refuse("a pickup that is not done here", in_quotes(what), expected);
-    const OsloSurface& source = text.surfaces[static_cast<std::size_t>(*from)];
+    const OsloSurface& source = text.surfaces[static_cast<std::size_t>(from)];
     const double sign = what.ends_with('M') ? -1.0 : 1.0;
     const auto times = [&](std::optional<double> value) {
         return value ? std::optional(sign * *value) : value;
@@ -240,10 +242,11 @@ void Reader::pick_up(const OsloCommand& command) {
         current.glass_wavelengths_um = source.glass_wavelengths_um;
     } else {
         current.aperture = source.aperture;
+        current.aperture_place = command.place;
         current.aperture_checked = source.aperture_checked;
     }
     note_converted(notes, command.place.where,
-                   fmt::format("picked up from surface {}: {}", *from, what));
+                   fmt::format("picked up from surface {}: {}", from, what));
 }
 
 bool Reader::read_surface(const OsloCommand& command) {

@@ -32,7 +32,8 @@ void read_comments(std::span<const TextLine> lines, Prescription& lens) {
         while (comment.starts_with('#')) comment.remove_prefix(1);
         comment = trimmed(comment);
         while (comment.ends_with('"')) comment.remove_suffix(1);
-        if (comment.empty()) continue;
+        const bool names_columns = comment.find("radius") != comment.npos;
+        if (comment.empty() || names_columns) continue;
         if (lens.name.empty())
             lens.name = clipped(comment, 200);
         else if (lens.source.size() < longest_source)
@@ -141,6 +142,7 @@ ImportedLens import_pbrt_lens(const FormatSource& source) {
                  true, "give the glasses their Abbe numbers");
     if (result.stop) result.lens.stop.surface = *result.stop;
     place_sensor(result, std::nullopt, file);
+    note_surfaces(result);
     return result;
 }
 

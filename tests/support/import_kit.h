@@ -68,8 +68,9 @@ inline void expect_rows(const Prescription& lens, const std::vector<BookRow>& ro
         const BaseCurve curve =
             rows[i].radius_mm == 0.0 ? BaseCurve(Plane{}) : BaseCurve(Radius{rows[i].radius_mm});
         EXPECT_EQ(surface.curve, curve) << "row " << i + 1;
-        if (i + 1 < rows.size())
+        if (i + 1 < rows.size()) {
             EXPECT_DOUBLE_EQ(surface.thickness_mm, rows[i].thickness_mm) << "row " << i + 1;
+        }
         EXPECT_NEAR(refractive_index(surface.medium_after, d_line_nm), rows[i].index, 1e-12)
             << "row " << i + 1;
         EXPECT_DOUBLE_EQ(surface.semi_diameter_mm, clear_radii[i]) << "row " << i + 1;

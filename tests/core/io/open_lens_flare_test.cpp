@@ -41,7 +41,7 @@ TEST(OpenLensFlare, FirstOrderByAnotherWayAndAsPublished) {
     const LensFile file = read_sample("open_lens_flare/heliar.xml");
     const FirstOrder order = first_order(compile(file.lens, d_line_nm));
     EXPECT_NEAR(order.efl_mm, book_focus(heliar_rows).efl_mm, rounding_mm);
-    EXPECT_NEAR(order.efl_mm, 100.0, 0.5);
+    EXPECT_NEAR(order.efl_mm, 100.0, 1.0);  // its indices have three decimals
     EXPECT_NEAR(order.f_number, 8.0, 1e-9);
 }
 

@@ -87,7 +87,7 @@ TEST(OpticalBench, NamedGlasses) {
     EXPECT_EQ(file.lens.surfaces[0].medium_after, *bundled_glasses().find("N-BK7"));
     EXPECT_EQ(file.lens.surfaces[3].medium_after, (Medium{"N-BK7", ModelGlass{1.7, 55.0}}));
     EXPECT_EQ(file.lens.surfaces[6].medium_after, (Medium{"NO-SUCH-1", ModelGlass{1.65, 33.8}}));
-    EXPECT_EQ(note_with(file.notes, "but 1.7 in the file")->where, "line 19");
+    EXPECT_EQ(note_with(file.notes, "but 1.7 in the file")->where, "line 18");
 }
 
 /// z = R − √(R² − r²) + a2 r² + a4 r⁴, as the surface is traced.
