@@ -171,11 +171,11 @@ std::optional<double> clear_radius(const OsloSurface& surface, double marginal, 
 void read_system(const OsloText& text, ImportedLens& result) {
     const double unit = text.unit_mm;
     Published& published = result.lens.published;
-    if (text.efl && *text.efl != 100.0 && *text.efl > 0.0) {
+    if (text.efl && *text.efl != 100.0 && *text.efl > 0.0 && *text.efl * unit <= 1e6) {
         result.stated_efl_mm = published.efl_mm = *text.efl * unit;
         note_read(result.notes, {}, fmt::format("focal length {} mm", *published.efl_mm));
     }
-    if (text.beam_radius && *text.beam_radius > 0.0) {
+    if (text.beam_radius && *text.beam_radius > 0.0 && *text.beam_radius * unit <= 1e6) {
         result.entrance_pupil_diameter_mm = 2.0 * *text.beam_radius * unit;
         note_converted(result.notes, {},
                        fmt::format("entrance beam radius: entrance pupil {} mm wide",
@@ -202,7 +202,8 @@ void read_system(const OsloText& text, ImportedLens& result) {
         result.half_field_deg = published.half_field_deg = half_field;
         note_read(result.notes, {}, fmt::format("half field {:.4g} degrees", *half_field));
     }
-    if (text.image_height) result.image_height_mm = std::abs(*text.image_height) * unit;
+    if (text.image_height && std::abs(*text.image_height) * unit <= 1e6)
+        result.image_height_mm = std::abs(*text.image_height) * unit;
     if (text.object_na)
         note_left_out(result.notes, {},
                       fmt::format("an aperture at the object (NAO {}): the stop is sized by the "

@@ -28,8 +28,10 @@ std::optional<double> index_at_d(const Medium& medium) {
 Medium medium_of(const StatedGlass& glass, const Place& place, Notes& notes) {
     if (glass.nd && !(*glass.nd >= 1.0 && *glass.nd <= 10.0))
         place.refuse("not a usable index", fmt::format("{}", *glass.nd), "an index from 1 to 10");
-    if (glass.vd && !std::isfinite(*glass.vd))
-        place.refuse("not a usable Abbe number", fmt::format("{}", *glass.vd), "a finite number");
+    // Below 1 the index would change by more than itself across the spectrum.
+    if (glass.vd && !(*glass.vd <= 0.0 || (*glass.vd >= 1.0 && *glass.vd <= 1e6)))
+        place.refuse("not a usable Abbe number", fmt::format("{}", *glass.vd),
+                     "1 or more, 0 for none");
     if (glass.name.empty() || same_word(glass.name, "air"))
         return glass.nd ? numbered_glass({}, *glass.nd, glass.vd, place.where, notes) : Medium{};
     const NamedGlass named{glass.name, {}, glass.nd, glass.vd, place.where};
