@@ -15,10 +15,11 @@ namespace {
 /// Words that say nothing about where light goes in the lens as it stands: the program's settings,
 /// drawing, optimisation, tolerances, solves whose result is in the file.
 constexpr std::array bookkeeping = {
-    "PFIL", "LANG", "GFAC", "RAIM", "PUSH", "SDMA", "ROPD", "PICB", "POLS", "GLRS", "GSTD", "NSCD",
-    "TOL",  "FWGN", "FWGT", "WWGT", "WWGN", "HIDE", "MIRR", "SLAB", "POPS", "VDSZ", "VPAR", "VCUR",
-    "PZUP", "MOFF", "COFN", "FCOM", "BLNK", "SCOL", "RSCE", "RWRE", "XFLD", "COCO", "VANN", "VCON",
-    "CGTT", "PPAR", "CCUR", "DMFS", "MEMA", "VXDA", "USAP", "PARX", "BBND", "RTOL", "TOLS", "GRPH",
+    "PFIL", "LANG", "GFAC", "RAIM", "PUSH", "SDMA", "ROPD", "PICB", "POLS", "GLRS",
+    "GSTD", "NSCD", "TOL",  "FWGN", "FWGT", "WWGT", "WWGN", "HIDE", "MIRR", "SLAB",
+    "POPS", "VDSZ", "VPAR", "VCUR", "PZUP", "MOFF", "COFN", "FCOM", "BLNK", "SCOL",
+    "RSCE", "RWRE", "OMMA", "HYPR", "FIMP", "COCO", "VANN", "VCON", "CGTT", "PPAR",
+    "CCUR", "DMFS", "MEMA", "VXDA", "USAP", "PARX", "BBND", "RTOL", "TOLS", "GRPH",
 };
 
 /// Operands of the multi-configuration editor.
@@ -218,13 +219,13 @@ class ZmxReader {
         } else if (word == "YFLN" || word == "YFLD") {
             file_.y_fields = numbers(1);
             file_.fields_where = place_.where;
-        } else if (word == "VDXN") {
+        } else if (word == "VDXN" || word == "ZVDX") {
             file_.vdx = numbers(1);
-        } else if (word == "VDYN") {
+        } else if (word == "VDYN" || word == "ZVDY") {
             file_.vdy = numbers(1);
-        } else if (word == "VCXN") {
+        } else if (word == "VCXN" || word == "ZVCX") {
             file_.vcx = numbers(1);
-        } else if (word == "VCYN") {
+        } else if (word == "VCYN" || word == "ZVCY") {
             file_.vcy = numbers(1);
         } else if (word == "WAVM") {
             if (const auto index = maybe_whole(1); index && maybe(2))
