@@ -121,8 +121,8 @@ Result run(const FuzzedReader& reader, const Options& options, double seconds, C
         const std::string bytes = mutated(reader, number);
         if (options.replay) fmt::print("  {}\n", saved(options, reader, number, bytes));
         current.is(fmt::format("--reader '{}' --replay {}", reader.name, number));
-        const Clock::time_point start = Clock::now();
-        began = start.time_since_epoch().count();
+        began = Clock::now().time_since_epoch().count();
+        const double start_s = thread_seconds();
         try {
             if (read_fuzzed(reader, bytes) == FuzzOutcome::read)
                 ++result.read;
@@ -132,7 +132,7 @@ Result run(const FuzzedReader& reader, const Options& options, double seconds, C
             report_defect(options, reader, number, bytes, defect.what, result);
         }
         began = 0;
-        const double took_s = seconds_since(start);
+        const double took_s = thread_seconds() - start_s;
         if (took_s > result.slowest_s) {
             result.slowest_s = took_s;
             result.slowest = number;

@@ -1,5 +1,7 @@
 #include "tests/kits/reader_fuzz.h"
 
+#include <time.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -271,6 +273,12 @@ std::vector<FuzzedReader> fuzzed_readers() {
     }
     add_other_readers(readers);
     return readers;
+}
+
+double thread_seconds() {
+    timespec now{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 std::string mutated(const FuzzedReader& reader, std::uint64_t number) {

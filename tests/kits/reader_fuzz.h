@@ -39,4 +39,7 @@ enum class FuzzOutcome { read, refused };
 /// for what read() throws.
 FuzzOutcome read_fuzzed(const FuzzedReader& reader, const std::string& bytes);
 
+/// What this thread has computed so far, s: not what it waited for on a busy machine.
+double thread_seconds();
+
 }  // namespace ghostlight
