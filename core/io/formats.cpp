@@ -14,6 +14,7 @@
 #include "core/io/oslo.h"
 #include "core/io/pbrt_lens.h"
 #include "core/io/realflare.h"
+#include "core/io/seq.h"
 #include "core/io/zmx.h"
 
 namespace ghostlight {
@@ -46,6 +47,7 @@ constexpr std::array formats = {
     LensFormat{"realflare", ".json", is_realflare, read_foreign<import_realflare>, nullptr},
     LensFormat{"Ghostlight or listing JSON", ".json", looks_like_json, read_json, write_json},
     LensFormat{"Zemax", ".zmx", is_zmx, read_foreign<import_zmx>, nullptr},
+    LensFormat{"CODE V", ".seq", is_seq, read_foreign<import_seq>, nullptr},
     LensFormat{"OSLO", ".len", is_oslo, read_foreign<import_oslo>, nullptr},
     LensFormat{"PhotonsToPhotos Optical Bench", ".txt", is_optical_bench,
                read_foreign<import_optical_bench>, nullptr},

@@ -163,8 +163,8 @@ class Completion {
             if (!is_stated(row)) {
                 stop.semi_diameter_mm = needed;
                 note(Severity::info, where,
-                     fmt::format("the stop's semi-diameter follows from the aperture: {} mm",
-                                 format_number(needed)),
+                     fmt::format("the stop's semi-diameter follows from the aperture: {:.6g} mm",
+                                 needed),
                      Fate::converted, true);
             } else if (needed > stop.semi_diameter_mm * (1.0 + 1e-3)) {
                 note(Severity::warning, where,

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "core/io/import_notes.h"
-#include "core/io/import_steps.h"
+#include "core/io/imported_fields.h"
 #include "core/io/imported_glass.h"
 #include "core/io/json_value.h"
 #include "core/io/text_lines.h"
@@ -303,17 +303,6 @@ class ZmxImport {
                 primary_nm_ ? fmt::format(", of which {:.6g} is primary", *primary_nm_) : ""));
     }
 
-    std::optional<FirstOrder> order() {
-        Prescription trial = imported_.lens;
-        if (imported_.stop) trial.stop.surface = *imported_.stop;
-        for (std::size_t row = 0; row < trial.surfaces.size(); ++row)
-            if (imported_.surfaces[row].semi_diameter_mm)
-                trial.surfaces[row].semi_diameter_mm = *imported_.surfaces[row].semi_diameter_mm;
-        // Dummies that go back are put in order later; to first order they may stay.
-        trial.surfaces.back().thickness_mm = 0.0;
-        return first_order_of(trial);
-    }
-
     void read_aperture() {
         const double value = zmx_.aperture_value;
         const std::string& where = zmx_.aperture_where;
@@ -344,7 +333,7 @@ class ZmxImport {
                     note_read(notes(), where, fmt::format("f-number {}", format_number(value)));
                 break;
             case Aperture::object_na: {
-                const auto first = order();
+                const auto first = first_order_so_far(imported_);
                 const double na = zmx_.aperture_flag == 1 ? std::sin(rad_from_deg(value)) : value;
                 if (is_far_ || !first || !(na < 1.0)) {
                     note_left_out(notes(), where,
@@ -445,83 +434,37 @@ class ZmxImport {
         }
     }
 
-    double field_of_height(double height_mm) {
-        const auto first = order();
-        return first && std::isfinite(first->efl_mm)
-                   ? deg_from_rad(std::atan(height_mm / std::abs(first->efl_mm)))
-                   : 0.0;
-    }
-
-    double field_of_object(double height_mm) {
-        const auto first = order();
-        if (is_far_ || !first) return 0.0;
-        const double distance = object_distance_mm_ + first->entrance_pupil_z_mm;
-        return deg_from_rad(std::atan(std::abs(height_mm / distance)));
-    }
-
     void read_fields() {
         const std::size_t listed = std::max(zmx_.x_fields.size(), zmx_.y_fields.size());
         const std::size_t count = std::min(zmx_.field_count.value_or(listed), listed);
-        const auto value = [](const std::vector<double>& all, std::size_t i) {
+        const auto entry = [](const std::vector<double>& all, std::size_t i) {
             return i < all.size() ? all[i] : 0.0;
         };
-        double largest = 0.0;
-        const bool as_angle = zmx_.field_type == 0 || zmx_.field_type == 4;
-        const bool on_image = zmx_.field_type == 2 || zmx_.field_type == 3;
+        using Kind = ListedFields::Kind;
+        ListedFields fields;
+        fields.kind = zmx_.field_type == 1                           ? Kind::object_height_mm
+                      : zmx_.field_type == 2 || zmx_.field_type == 3 ? Kind::image_height_mm
+                                                                     : Kind::angle_deg;
+        fields.where = zmx_.fields_where;
+        const double scale = fields.kind == Kind::angle_deg ? 1.0 : mm_;
         for (std::size_t i = 0; i < count; ++i) {
-            const double x = value(zmx_.x_fields, i), y = value(zmx_.y_fields, i);
-            ImportedField field;
-            if (as_angle) {
-                const double along =
-                    std::hypot(std::tan(rad_from_deg(x)), std::tan(rad_from_deg(y)));
-                // Beyond 90 degrees the tangents say nothing.
-                field.field_deg =
-                    std::max({deg_from_rad(std::atan(along)), std::abs(x), std::abs(y)});
-                largest = std::max(largest, field.field_deg);
-            } else {
-                const double height_mm = std::hypot(x, y) * mm_;
-                field.field_deg =
-                    on_image ? field_of_height(height_mm) : field_of_object(height_mm);
-                largest = std::max(largest, on_image ? height_mm : field.field_deg);
-            }
-            if (!std::isfinite(field.field_deg)) field.field_deg = 0.0;
-            field.field_deg = std::min(field.field_deg, 89.0);
-            const double compression = value(zmx_.vcy, i), decentre = value(zmx_.vdy, i);
-            // A field below the axis is the mirror image of one above it.
-            const double sense = y < 0.0 ? -1.0 : 1.0;
-            field.cut_upper = compression - sense * decentre;
-            field.cut_lower = compression + sense * decentre;
-            field.cut_sides = value(zmx_.vcx, i);
-            imported_.fields.push_back(field);
+            fields.x.push_back(scale * entry(zmx_.x_fields, i));
+            fields.y.push_back(scale * entry(zmx_.y_fields, i));
+            // An ellipse, decentred and compressed.
+            fields.cut_upper.push_back(entry(zmx_.vcy, i) - entry(zmx_.vdy, i));
+            fields.cut_lower.push_back(entry(zmx_.vcy, i) + entry(zmx_.vdy, i));
+            fields.cut_sides.push_back(entry(zmx_.vcx, i));
         }
-        if (on_image && largest > 0.0) {
-            imported_.image_height_mm = largest;
-            note_converted(
-                notes(), zmx_.fields_where,
-                fmt::format("fields by image height, up to {} mm", format_number(largest)));
-        } else if (largest > 0.0) {
-            imported_.half_field_deg = largest;
-            if (as_angle)
-                note_read(notes(), zmx_.fields_where,
-                          fmt::format("fields up to {} degrees", format_number(largest)));
-            else
-                note_converted(
-                    notes(), zmx_.fields_where,
-                    fmt::format("fields by object height: up to {:.6g} degrees", largest));
-        }
+        set_fields(imported_, fields, is_far_ ? std::nullopt : std::optional(object_distance_mm_));
+        const bool has_field =
+            imported_.half_field_deg.has_value() || imported_.image_height_mm.has_value();
         if (!imported_.image_height_mm && image().diameter && image().diameter->semi > 0.0 &&
-            (largest > 0.0 || image().diameter->by_user)) {
+            (has_field || image().diameter->by_user)) {
             imported_.image_height_mm = image().diameter->semi * mm_;
             note_read(notes(), image().where,
                       fmt::format("the image reaches {} mm from the axis",
                                   format_number(*imported_.image_height_mm)));
         }
-        bool any_vignetting = false;
-        for (const ImportedField& field : imported_.fields)
-            any_vignetting = any_vignetting || field.cut_upper != 0.0 || field.cut_lower != 0.0;
-        if (any_vignetting)
-            note_converted(notes(), zmx_.fields_where,
-                           "vignetting factors: used for sizing surfaces alone; rims cut the rays");
     }
 
     std::string file_;
