@@ -116,6 +116,19 @@ TEST(Oslo, SolvesFollowTheMarginalRay) {
     EXPECT_NEAR(curved.lens.surfaces[0].thickness_mm, 10.0, rounding_mm);
 }
 
+/// Counted from the first surface, or back from this one; the number behind is added.
+TEST(Oslo, PickupsTakeAnEarlierSurfacesValue) {
+    const ImportedLens lens = import(
+        "LEN NEW \"x\" 1 4\nEBR 1\nTH 1e20\nNXT\nGLA 1.5\nRD 50\nCC -1\nTH 4\nNXT\nAIR\nPK CVM 1\n"
+        "TH 2\nNXT\nPK GLA -2\nPK CV -2 0.01\nPK TH 1 0.5\nNXT\nAIR\nRD -50\nTH 90\nNXT\nEND 4\n");
+    ASSERT_EQ(lens.lens.surfaces.size(), 4u);
+    EXPECT_EQ(lens.lens.surfaces[1].curve, BaseCurve(Radius{-50.0}));
+    EXPECT_EQ(lens.lens.surfaces[1].conic, -1.0);
+    EXPECT_NEAR(curvature_per_mm(lens.lens.surfaces[2].curve), 1.0 / 50 + 0.01, 1e-15);
+    EXPECT_EQ(lens.lens.surfaces[2].thickness_mm, 4.5);
+    EXPECT_EQ(lens.lens.surfaces[2].medium_after, lens.lens.surfaces[0].medium_after);
+}
+
 TEST(Oslo, DefaultsAreSaid) {
     const ImportedLens lens = import(singlet("EBR 5\nUNI 1.0", "AP CHK 9"));
     EXPECT_EQ(lens.stop, 0u);
