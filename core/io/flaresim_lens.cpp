@@ -147,6 +147,7 @@ ImportedLens import_flaresim_lens(const FormatSource& source) {
         note_read(result.notes, {}, fmt::format("f/{} from the lens's name", *f_number));
     }
     settle_heights(result, f_number, remarks.find("onverted from photonstophotos") != remarks.npos);
+    note_surfaces(result);
     return result;
 }
 

@@ -33,7 +33,15 @@ std::string write_json(const Prescription& lens, Notes&) { return lens_to_json(l
 /// A reader of a foreign format, with what its file leaves open worked out.
 template <ImportedLens (*import)(const FormatSource&)>
 LensFile read_foreign(const FormatSource& source) {
-    return complete_import(import(source), source.file.string());
+    try {
+        return complete_import(import(source), source.file.string());
+    } catch (const Error& error) {
+        if (!error.parts().file.empty()) throw;
+        // From a lens that cannot be worked with at all, by what works with lenses from anywhere.
+        Error::Parts parts = error.parts();
+        parts.file = source.file.string();
+        throw Error(std::move(parts));
+    }
 }
 
 constexpr std::array formats = {

@@ -34,7 +34,8 @@ std::vector<double> read_aspheric(const JsonAt& surface) {
         for (const auto& [name, value] : named->value().items()) {
             const auto index = aspheric_index(name);
             if (!index)
-                named->refuse(fmt::format("'{}' is not a term of an even asphere", name), expected);
+                named->refuse(fmt::format("{} is not a term of an even asphere", excerpt(name)),
+                              expected);
             if (terms.size() <= *index) terms.resize(*index + 1, 0.0);
             terms[*index] = named->at(name, expected).number();
         }
@@ -164,8 +165,7 @@ Configuration read_configuration(const JsonAt& object, std::size_t surfaces) {
                 thicknesses->at(text, expected).number("a thickness in mm");
         }
     }
-    keep_unknown(object,
-                 {"name", "f_number", "stop_semi_diameter_mm", "published", "thickness_mm"},
+    keep_unknown(object, {"name", "f_number", "stop_semi_diameter_mm", "published", "thickness_mm"},
                  configuration.unknown);
     return configuration;
 }

@@ -51,14 +51,25 @@ void append_surface(ImportedLens& lens, const ListedSurface& listed) {
         clear.reset();
     }
     if (clear) surface.semi_diameter_mm = *clear;
-    note_read(lens.notes, place.where,
-              fmt::format(
-                  "surface {}: {}, {} mm of {}, {}", lens.lens.surfaces.size() + 1,
-                  is_plane ? "plane" : fmt::format("radius {} mm", listed.radius_mm),
-                  surface.thickness_mm, medium_name(surface.medium_after),
-                  clear ? fmt::format("clear radius {} mm", *clear) : "clear radius to be sized"));
     lens.lens.surfaces.push_back(std::move(surface));
     lens.surfaces.push_back({clear, place.where});
+}
+
+void note_surfaces(ImportedLens& lens) {
+    for (std::size_t row = 0; row < lens.surfaces.size(); ++row) {
+        const Surface& surface = lens.lens.surfaces[row];
+        const ImportedSurface& said = lens.surfaces[row];
+        const double c = curvature_per_mm(surface.curve);
+        std::string shape = c == 0.0 ? "plane" : fmt::format("radius {:.7g} mm", 1.0 / c);
+        if (const auto* radius = std::get_if<Radius>(&surface.curve))
+            shape = fmt::format("radius {} mm", radius->mm);
+        note_read(lens.notes, said.where,
+                  fmt::format("surface {}: {}, {} mm of {}, {}", row + 1, shape,
+                              surface.thickness_mm, medium_name(surface.medium_after),
+                              said.semi_diameter_mm
+                                  ? fmt::format("clear radius {} mm", *said.semi_diameter_mm)
+                                  : "clear radius to be sized"));
+    }
 }
 
 void place_sensor(ImportedLens& lens, std::optional<double> distance_mm, const std::string& file) {

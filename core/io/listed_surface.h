@@ -19,10 +19,13 @@ struct ListedSurface {
     std::string comment = {};
 };
 
-/// Appends it to the lens, with a line for the report. Throws Error for what cannot be meant: a
+/// Appends it to the lens. Throws Error for what cannot be meant: a
 /// length beyond 1e6 mm, more than 1000 surfaces. A negative thickness is left to
 /// complete_import().
 void append_surface(ImportedLens& lens, const ListedSurface& listed);
+
+/// A line of the report for each surface, as it stands now.
+void note_surfaces(ImportedLens& lens);
 
 /// What the last thickness says of the sensor: its distance, or nothing (then it goes to the
 /// paraxial focus). Throws Error when there is no surface.

@@ -208,6 +208,7 @@ ImportedLens import_open_lens_flare(const FormatSource& source) {
     const double last_mm = result.lens.surfaces.back().thickness_mm;
     place_sensor(result, last_mm != 0.0 ? std::optional(last_mm) : std::nullopt, file);
     settle_heights(result, std::nullopt, false);
+    note_surfaces(result);
     return result;
 }
 

@@ -146,7 +146,11 @@ std::vector<int> powers_of(const BenchText& text, std::size_t count) {
 }
 
 void add_aspheres(const BenchText& text, ImportedLens& result) {
+    std::set<std::string_view> ids;
     for (const BenchAsphere& asphere : text.aspheres) {
+        if (!ids.insert(asphere.id).second)
+            asphere.place.refuse("the surface's asphere is given twice", in_quotes(asphere.id),
+                                 "one row for each surface");
         const auto row = std::ranges::find(text.surfaces, asphere.id, &BenchSurface::id);
         if (row == text.surfaces.end())
             asphere.place.refuse("there is no surface of this id", in_quotes(asphere.id),
@@ -268,6 +272,7 @@ ImportedLens import_optical_bench(const FormatSource& source) {
     add_aspheres(text, result);
     read_fields(text, first, result);
     if (positions.size() > 1) add_configurations(text, positions, result);
+    note_surfaces(result);
     return result;
 }
 

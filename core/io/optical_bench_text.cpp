@@ -72,7 +72,7 @@ void Reader::enter(std::string_view line, const Place& place) {
                       optical);
     else if (!optical && section != "DESCRIPTIVE DATA" && section != "FIGURE" &&
              section != "NOTES" && section != "METADATA" && section != "PATENT INFO" &&
-             section != "REPORT DATA")
+             section != "REPORT DATA" && section != "GROUP DATA")
         note_left_out(notes, place.where,
                       fmt::format("the section {} is not known", in_quotes(section)));
 }
@@ -146,7 +146,7 @@ void Reader::read_asphere(std::string_view line, const Place& place) {
     BenchAsphere asphere;
     asphere.place = place;
     asphere.id = row[0];
-    if (!same_word(row[1], "Infinity"))
+    if (!same_word(row[1], "Infinity") && !same_word(row[1], "-Infinity"))
         asphere.radius_mm = optional_value(row[1], place, "a radius");
     asphere.conic = optional_value(cell(row, 2), place, "a conic constant").value_or(0.0);
     for (std::size_t i = 3; i < row.size(); ++i)

@@ -20,34 +20,35 @@ namespace {
 constexpr double infinite_distance = 1e8;
 constexpr double infinite_aperture = 1e6;
 
-/// n(λ) = nd + B (1/λ² − 1/λd²) through the indices at their wavelengths, least squares.
+/// n(λ) = nd + B (1/λ² − 1/λd²): B from the shortest and the longest wavelength, nd from the one
+/// nearest to d. With the lines d, F and C that is nd and Vd as they are defined.
 Medium model_glass(const std::string& name, std::span<const double> wavelengths_um,
                    std::span<const double> indices, const Place& place, Notes& notes) {
-    const double at_d = 1.0 / std::pow(um_from_nm(d_line_nm), 2);
-    double sum_x = 0, sum_n = 0, sum_xx = 0, sum_xn = 0;
-    const auto count = static_cast<double>(indices.size());
+    const auto inverse_square = [](double um) { return 1.0 / (um * um); };
+    const double at_d = inverse_square(um_from_nm(d_line_nm));
+    std::size_t shortest = 0, longest = 0, nearest = 0;
     for (std::size_t i = 0; i < indices.size(); ++i) {
-        const double x = 1.0 / (wavelengths_um[i] * wavelengths_um[i]) - at_d;
-        sum_x += x;
-        sum_n += indices[i];
-        sum_xx += x * x;
-        sum_xn += x * indices[i];
+        if (wavelengths_um[i] < wavelengths_um[shortest]) shortest = i;
+        if (wavelengths_um[i] > wavelengths_um[longest]) longest = i;
+        if (std::abs(wavelengths_um[i] - um_from_nm(d_line_nm)) <
+            std::abs(wavelengths_um[nearest] - um_from_nm(d_line_nm)))
+            nearest = i;
     }
-    const double spread = count * sum_xx - sum_x * sum_x;
-    const double slope = spread > 1e-9 ? (count * sum_xn - sum_x * sum_n) / spread : 0.0;
-    const double nd = (sum_n - slope * sum_x) / count;
-    const double f = 1.0 / std::pow(um_from_nm(f_line_nm), 2);
-    const double c = 1.0 / std::pow(um_from_nm(c_line_nm), 2);
-    const double vd = slope > 0.0 ? (nd - 1.0) / (slope * (f - c)) : 0.0;
+    const double spread =
+        inverse_square(wavelengths_um[shortest]) - inverse_square(wavelengths_um[longest]);
+    const double b = spread > 0.0 ? (indices[shortest] - indices[longest]) / spread : 0.0;
+    const double nd = indices[nearest] - b * (inverse_square(wavelengths_um[nearest]) - at_d);
+    const double f_minus_c =
+        inverse_square(um_from_nm(f_line_nm)) - inverse_square(um_from_nm(c_line_nm));
+    const double vd = b > 0.0 ? (nd - 1.0) / (b * f_minus_c) : 0.0;
     double worst = 0.0;
     for (std::size_t i = 0; i < indices.size(); ++i)
         worst = std::max(
-            worst, std::abs(nd + slope * (1.0 / (wavelengths_um[i] * wavelengths_um[i]) - at_d) -
-                            indices[i]));
+            worst, std::abs(nd + b * (inverse_square(wavelengths_um[i]) - at_d) - indices[i]));
     note_converted(
         notes, place.where,
-        fmt::format("glass {}: nd {:.5f} and Vd {:.2f} from the indices at {} wavelengths, "
-                    "which they meet within {:.1g}",
+        fmt::format("glass {}: nd {:.5f} and Vd {:.2f} from the indices at {} wavelengths, which "
+                    "they meet within {:.1g}",
                     in_quotes(name), nd, vd, indices.size(), worst));
     return medium_of({.name = {}, .nd = nd, .vd = vd}, place, notes);
 }
@@ -138,7 +139,7 @@ void solve(OsloText& text, std::span<const Medium> media, MarginalRay& ray, Note
 /// The clear radius in mm; none when it is to be sized.
 std::optional<double> clear_radius(const OsloSurface& surface, double marginal, double unit_mm,
                                    bool sized_by_beam, Notes& notes) {
-    const std::string& where = surface.place.where;
+    const std::string& where = surface.aperture_place.where;
     if (!surface.aperture || *surface.aperture == 0.0) return std::nullopt;
     const double radius_mm = *surface.aperture * unit_mm;
     if (*surface.aperture >= infinite_aperture) return std::nullopt;
@@ -170,11 +171,11 @@ std::optional<double> clear_radius(const OsloSurface& surface, double marginal, 
 void read_system(const OsloText& text, ImportedLens& result) {
     const double unit = text.unit_mm;
     Published& published = result.lens.published;
-    if (text.efl && *text.efl != 100.0 && *text.efl > 0.0) {
+    if (text.efl && *text.efl != 100.0 && *text.efl > 0.0 && *text.efl * unit <= 1e6) {
         result.stated_efl_mm = published.efl_mm = *text.efl * unit;
         note_read(result.notes, {}, fmt::format("focal length {} mm", *published.efl_mm));
     }
-    if (text.beam_radius && *text.beam_radius > 0.0) {
+    if (text.beam_radius && *text.beam_radius > 0.0 && *text.beam_radius * unit <= 1e6) {
         result.entrance_pupil_diameter_mm = 2.0 * *text.beam_radius * unit;
         note_converted(result.notes, {},
                        fmt::format("entrance beam radius: entrance pupil {} mm wide",
@@ -201,7 +202,8 @@ void read_system(const OsloText& text, ImportedLens& result) {
         result.half_field_deg = published.half_field_deg = half_field;
         note_read(result.notes, {}, fmt::format("half field {:.4g} degrees", *half_field));
     }
-    if (text.image_height) result.image_height_mm = std::abs(*text.image_height) * unit;
+    if (text.image_height && std::abs(*text.image_height) * unit <= 1e6)
+        result.image_height_mm = std::abs(*text.image_height) * unit;
     if (text.object_na)
         note_left_out(result.notes, {},
                       fmt::format("an aperture at the object (NAO {}): the stop is sized by the "
@@ -316,6 +318,7 @@ ImportedLens import_oslo(const FormatSource& source) {
         result.image_height_mm = *text.surfaces[image].aperture * text.unit_mm;
     read_system(text, result);
     check_unit(text, result);
+    note_surfaces(result);
     return result;
 }
 

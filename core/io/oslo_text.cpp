@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 
 #include "core/io/import_notes.h"
 
@@ -165,6 +166,7 @@ bool Reader::read_system(const OsloCommand& command) {
 }
 
 void Reader::read_aperture(const OsloCommand& command) {
+    current.aperture_place = command.place;
     std::string_view value;
     for (const std::string& part : command.parts) {
         if (same_word(part, "CHK"))
@@ -206,44 +208,45 @@ bool Reader::read_asphere(const OsloCommand& command) {
     return false;
 }
 
-/// PK CV 3, PK THM 2: the same as, or minus, an earlier surface's.
+/// PK CV 3, PK THM -2 0.5: an earlier surface's value, or minus it, and a number added. Below 0 the
+/// surface is counted back from this one.
 void Reader::pick_up(const OsloCommand& command) {
     const std::string what = command.parts.empty() ? "" : upper_case(command.parts[0]);
-    constexpr std::string_view expected = "CV, CVM, TH, THM, GLA or AP and an earlier surface";
-    const auto from = command.parts.size() < 2 ? std::nullopt : number_after(command.parts[1], "");
+    constexpr std::string_view expected =
+        "CV, CVM, TH, THM, GLA or AP, an earlier surface and at most one number to add";
     const bool known = what == "CV" || what == "CVM" || what == "TH" || what == "THM" ||
                        what == "GLA" || what == "AP";
-    const bool plain = std::ranges::all_of(
-        command.parts.begin() + std::min<std::ptrdiff_t>(2, std::ssize(command.parts)),
-        command.parts.end(), [](const std::string& part) {
-            const auto value = parse_number(part);
-            return value && (*value == 0.0 || *value == 1.0);
-        });
-    if (!known || !from || static_cast<std::size_t>(*from) >= text.surfaces.size() || !plain)
+    const auto here = static_cast<double>(text.surfaces.size());
+    double from = command.parts.size() < 2 ? here : parse_number(command.parts[1]).value_or(here);
+    if (from < 0.0) from += here;
+    if (!known || command.parts.size() > 3 || !(from >= 0.0 && from < here) ||
+        from != std::floor(from))
         command.place.refuse("a pickup that is not done here", in_quotes(what), expected);
-    const OsloSurface& source = text.surfaces[static_cast<std::size_t>(*from)];
+    const double added =
+        command.parts.size() < 3 ? 0.0 : command.place.number(command.parts[2], expected);
+    const OsloSurface& source = text.surfaces[static_cast<std::size_t>(from)];
     const double sign = what.ends_with('M') ? -1.0 : 1.0;
-    const auto times = [&](std::optional<double> value) {
-        return value ? std::optional(sign * *value) : value;
-    };
     if (what.starts_with("CV")) {
-        current.radius = times(source.radius);
-        current.curvature = times(source.curvature);
+        double c = source.curvature.value_or(0.0);
+        if (source.radius && *source.radius != 0.0) c = 1.0 / *source.radius;
+        current.radius.reset();
+        current.curvature = sign * c + added;
         current.conic = source.conic;
         current.asphere = source.asphere;
         for (const auto& [power, term] : source.terms) current.terms[power] = sign * term;
     } else if (what.starts_with("TH")) {
-        current.thickness = times(source.thickness);
+        current.thickness = sign * source.thickness.value_or(0.0) + added;
     } else if (what == "GLA") {
         current.glass = source.glass;
         current.glass_place = source.glass_place;
         current.glass_wavelengths_um = source.glass_wavelengths_um;
     } else {
         current.aperture = source.aperture;
+        current.aperture_place = command.place;
         current.aperture_checked = source.aperture_checked;
     }
     note_converted(notes, command.place.where,
-                   fmt::format("picked up from surface {}: {}", *from, what));
+                   fmt::format("{} picked up from surface {}", what, from));
 }
 
 bool Reader::read_surface(const OsloCommand& command) {

@@ -32,6 +32,7 @@ struct OsloSurface {
     Place glass_place;
     std::vector<double> glass_wavelengths_um;  ///< of the WV before a GLA MOD
     std::optional<double> aperture;
+    Place aperture_place;
     bool aperture_checked = false;
     bool is_stop = false;
     std::optional<double> height_solve;  ///< PY: the thickness that brings the marginal ray there

@@ -32,7 +32,8 @@ void read_comments(std::span<const TextLine> lines, Prescription& lens) {
         while (comment.starts_with('#')) comment.remove_prefix(1);
         comment = trimmed(comment);
         while (comment.ends_with('"')) comment.remove_suffix(1);
-        if (comment.empty()) continue;
+        const bool names_columns = comment.find("radius") != comment.npos;
+        if (comment.empty() || names_columns) continue;
         if (lens.name.empty())
             lens.name = clipped(comment, 200);
         else if (lens.source.size() < longest_source)
@@ -135,8 +136,13 @@ ImportedLens import_pbrt_lens(const FormatSource& source) {
                                       row.thickness_mm));
     }
     note_converted(result.notes, {}, "diameters are halved to clear radii");
+    note_assumed(result.notes, {},
+                 "the file has no dispersion: every index holds at every wavelength, and ghosts "
+                 "have no coloured rims",
+                 true, "give the glasses their Abbe numbers");
     if (result.stop) result.lens.stop.surface = *result.stop;
     place_sensor(result, std::nullopt, file);
+    note_surfaces(result);
     return result;
 }
 
