@@ -67,6 +67,9 @@ struct LensOptions {
 };
 CLI::Option* add_lens(CLI::App& command, LensOptions& options);
 
+/// What may follow --coating. Throws Error.
+Coating parse_coating(std::string_view text);
+
 /// What to type for a bundled lens; its full name works too.
 std::string short_name(const BundledLens& lens);
 
