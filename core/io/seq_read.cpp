@@ -221,9 +221,10 @@ class SeqImport {
             aperture_value_ = value();
             aperture_where_ = where_;
         } else if (name == "WL") {
+            wavelengths_nm_ = numbers(command, 0);
             note_left_out(
                 notes(), where_,
-                "wavelengths " + joined(numbers(command, 0)) + " nm: lights choose their own here");
+                "wavelengths " + joined(wavelengths_nm_) + " nm: lights choose their own here");
         } else if (name == "XAN" || name == "YAN" || name == "XOB" || name == "YOB" ||
                    name == "XIM" || name == "YIM" || name == "XRI" || name == "YRI") {
             if (zoomed(command)) return true;

@@ -222,9 +222,24 @@ glm::dvec3 traced_by_hand(const std::vector<Step>& steps, glm::dvec3 point, glm:
                      std::pow(r2, static_cast<double>(k));
             return s;  // dz/d(r²)
         };
-        double t = -point.z / direction.z;
+        // The conic by its quadratic, the root nearer to the vertex; Newton for what is on top.
+        const double k1 = 1.0 + step.conic, c = step.curvature;
+        const double a = c * (1.0 + step.conic * direction.z * direction.z);
+        const double b =
+            c * (point.x * direction.x + point.y * direction.y + k1 * point.z * direction.z) -
+            direction.z;
+        const double q =
+            c * (point.x * point.x + point.y * point.y + k1 * point.z * point.z) - 2.0 * point.z;
+        double t = -0.5 * q / b;
+        if (std::abs(a) > 1e-9) {
+            const double root = std::sqrt(b * b - a * q);
+            const double near = (-b + root) / a, far = (-b - root) / a;
+            t = std::abs(point.z + near * direction.z) < std::abs(point.z + far * direction.z)
+                    ? near
+                    : far;
+        }
         glm::dvec3 normal;
-        for (int round = 0; round < 60; ++round) {
+        for (int round = 0; round < 20; ++round) {
             const glm::dvec3 at = point + t * direction;
             const double r2 = at.x * at.x + at.y * at.y;
             normal = {-2.0 * slope(r2) * at.x, -2.0 * slope(r2) * at.y, 1.0};

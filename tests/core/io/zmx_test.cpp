@@ -175,7 +175,7 @@ TEST(Zmx, WhatCannotBeIsRefusedWithItsPlace) {
 TEST(Zmx, HarmlessBreaksAreOpened) {
     const std::string behind = replaced(zmx_of(singlet), "SURF 3",
                                         "SURF 3\n  TYPE COORDBRK\n  PARM 3 5\n  DISZ 0\nSURF 4");
-    EXPECT_TRUE(note_with(read_text_as_zmx(behind).notes, "upright")->matters_for_flare);
+    EXPECT_TRUE(note_with(read_text_as_zmx(behind).notes, "tilts or decentres")->matters_for_flare);
 }
 
 TEST(Zmx, ApertureKinds) {
