@@ -100,7 +100,7 @@ void note_left_behind(const Prescription& lens, std::string_view format, Notes& 
         if (each.published != Published{})
             note_left_out(notes, fmt::format("configurations['{}']", each.name),
                           "what the source states of this position");
-        if (each.stop_semi_diameter_mm)
+        if (each.stop_semi_diameter_mm && !by_entrance_pupils(lens))
             note_left_out(notes, fmt::format("configurations['{}']", each.name),
                           "the stop's width in this position", true);
     }
@@ -130,6 +130,15 @@ double working_stop_radius_mm(const Prescription& lens) {
     const auto system = compiled(lens);
     return system ? system->stop_mask.semi_diameter_mm
                   : lens.surfaces[lens.stop.surface].semi_diameter_mm;
+}
+
+bool by_entrance_pupils(const Prescription& lens) {
+    bool any = false;
+    for (const Configuration& each : lens.configurations) {
+        if (each.f_number) return false;
+        any = any || each.stop_semi_diameter_mm;
+    }
+    return any && !lens.stop.f_number && entrance_pupil_diameter_mm(lens);
 }
 
 double sensor_distance_mm(const Prescription& lens) {

@@ -41,6 +41,10 @@ std::optional<double> entrance_pupil_diameter_mm(const Prescription& lens);
 /// The stop's radius at the working f-number; its row's where that cannot be worked out.
 double working_stop_radius_mm(const Prescription& lens);
 
+/// True where configurations state the stop's width rather than f-numbers; then what is written is
+/// an entrance pupil for each.
+bool by_entrance_pupils(const Prescription& lens);
+
 /// Distance from the last vertex to the sensor, mm, at the focus where it stands there.
 double sensor_distance_mm(const Prescription& lens);
 

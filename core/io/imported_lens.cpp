@@ -53,6 +53,7 @@ class Completion {
             std::max(imported_.sensor_distance_mm.value_or(0.0), 0.0);
         check_that_it_compiles();
         settle_published();
+        settle_configuration_pupils();
         settle_aperture();
         settle_sensor_distance();
         settle_sensor_size();
@@ -141,10 +142,27 @@ class Completion {
         if (!published.half_field_deg) published.half_field_deg = imported_.half_field_deg;
     }
 
+    void settle_configuration_pupils() {
+        for (Configuration& each : lens_.configurations) {
+            const auto pupil = imported_.configuration_pupils_mm.find(each.name);
+            if (pupil == imported_.configuration_pupils_mm.end()) continue;
+            const Prescription position = configured(lens_, each.name);
+            const auto order = first_order_of(position);
+            if (!order) continue;
+            const double radius = 0.5 * pupil->second *
+                                  position.surfaces[position.stop.surface].semi_diameter_mm /
+                                  order->entrance_pupil_radius_mm;
+            if (std::isfinite(radius) && radius > 0.0) each.stop_semi_diameter_mm = radius;
+        }
+    }
+
     /// Heights at the stop over those in the entrance pupil, and EFL, in the worst configuration.
     double stop_radius_needed() const {
         double needed = 0.0;
+        for (const Configuration& each : lens_.configurations)
+            needed = std::max(needed, each.stop_semi_diameter_mm.value_or(0.0));
         for (const Prescription& position : positions()) {
+            if (position.stop.semi_diameter_mm) continue;
             const auto order = first_order_of(position);
             if (!order) continue;
             const double at_stop = position.surfaces[position.stop.surface].semi_diameter_mm /

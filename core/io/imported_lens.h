@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,7 @@ struct ImportedLens {
     std::optional<std::size_t> stop;           ///< row from 0; none: the file names no stop
     std::optional<double> sensor_distance_mm;  ///< last vertex to the sensor; none: paraxial focus
     std::optional<double> entrance_pupil_diameter_mm;
+    std::map<std::string, double> configuration_pupils_mm;  ///< its diameter, by configuration
     std::optional<double> f_number;
     std::optional<double> half_field_deg;
     std::vector<ImportedField> fields;  ///< for sizing; none: up to the half field, no vignetting

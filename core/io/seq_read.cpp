@@ -429,6 +429,11 @@ class SeqImport {
             return;
         }
         if (what == "TIT" || what == "THC") return;
+        if (what == "EPD") {
+            const std::vector<double> values = numbers(command, 1);
+            for (std::size_t i = 0; i < values.size(); ++i) zoom_pupil_[i + 1] = values[i];
+            return;
+        }
         if (what == "FNO" || (what == "THI" && command.words.size() > 2)) {
             const std::vector<double> values = numbers(command, what == "FNO" ? 1 : 2);
             if (what == "FNO") {
@@ -475,7 +480,7 @@ class SeqImport {
     std::size_t positions_ = 1;
     std::map<std::size_t, std::string> zoom_names_;
     std::map<std::size_t, std::map<std::size_t, double>> zoom_thickness_;  ///< surface → zoom
-    std::map<std::size_t, double> zoom_f_number_;
+    std::map<std::size_t, double> zoom_f_number_, zoom_pupil_;
     std::map<std::string, std::string> zoom_left_out_;
     std::set<std::string> skipped_;
     UnusedWords unused_;
@@ -616,6 +621,9 @@ void SeqImport::set_zoom() {
             if (const auto f = zoom_f_number_.find(zoom);
                 f != zoom_f_number_.end() && f->second > 0.0)
                 made.f_number = f->second;
+            if (const auto pupil = zoom_pupil_.find(zoom);
+                pupil != zoom_pupil_.end() && pupil->second > 0.0)
+                imported_.configuration_pupils_mm[made.name] = pupil->second * mm_;
             imported_.lens.configurations.push_back(std::move(made));
         }
         note_read(notes(), {}, fmt::format("{} zoom positions", positions_));

@@ -149,7 +149,13 @@ std::string zoom_text(const Prescription& lens, Notes& notes) {
     }
     const bool any_f_number = std::ranges::any_of(
         lens.configurations, [](const Configuration& each) { return each.f_number.has_value(); });
-    if (any_f_number && lens.stop.f_number) {
+    if (by_entrance_pupils(lens)) {
+        text += "ZOO EPD";
+        for (const Configuration& each : lens.configurations)
+            text +=
+                " " + exact(entrance_pupil_diameter_mm(configured(lens, each.name)).value_or(0.0));
+        text += "\n";
+    } else if (any_f_number && lens.stop.f_number) {
         text += "ZOO FNO";
         for (const Configuration& each : lens.configurations)
             text += " " + exact(each.f_number.value_or(*lens.stop.f_number));

@@ -415,6 +415,7 @@ class ZmxImport {
     void read_configurations() {
         if (zmx_.configurations <= 1) return;
         std::map<int, Configuration> made;
+        std::map<int, double> pupils;
         std::map<std::string, std::string> left_out;
         for (const ZmxOperand& each : zmx_.operands) {
             if (each.configuration < 1 || each.configuration > zmx_.configurations) continue;
@@ -429,6 +430,9 @@ class ZmxImport {
             } else if (each.word == "APER" && each.value && *each.value > 0.0 &&
                        zmx_.aperture == ZmxFile::Aperture::f_number) {
                 configuration.f_number = *each.value;
+            } else if (each.word == "APER" && each.value && *each.value > 0.0 &&
+                       zmx_.aperture == ZmxFile::Aperture::entrance_pupil) {
+                pupils[each.configuration] = *each.value * mm_;
             } else if (each.word != "MOFF") {
                 left_out.emplace(each.word, each.where);
             }
@@ -439,6 +443,8 @@ class ZmxImport {
             if (configuration.name.empty() || names.contains(configuration.name))
                 configuration.name = fmt::format("configuration {}", number);
             names.insert(configuration.name);
+            if (pupils.contains(number))
+                imported_.configuration_pupils_mm[configuration.name] = pupils[number];
             solve_thicknesses(configuration);
             imported_.lens.configurations.push_back(configuration);
         }

@@ -11,11 +11,11 @@ namespace {
 /// FNUM, ENPD, or by the stop's own size where nothing closes it.
 std::string aperture_line(const Prescription& lens, Notes& notes) {
     if (lens.stop.f_number) return "FNUM " + exact(*lens.stop.f_number) + " 0";
-    if (!lens.stop.semi_diameter_mm) return "FLOA";
+    if (!lens.stop.semi_diameter_mm && !by_entrance_pupils(lens)) return "FLOA";
     if (const auto diameter = entrance_pupil_diameter_mm(lens)) {
         note_converted(notes, "stop",
                        fmt::format("its radius of {} mm is written as an entrance pupil {} mm wide",
-                                   exact(*lens.stop.semi_diameter_mm), exact(*diameter)));
+                                   exact(working_stop_radius_mm(lens)), exact(*diameter)));
         return "ENPD " + exact(*diameter);
     }
     note_left_out(notes, "stop", "its working radius: it is written wide open", true);
@@ -49,7 +49,12 @@ std::string configurations_text(const Prescription& lens, Notes& notes) {
     bool any_f_number = false;
     for (const Configuration& each : lens.configurations)
         any_f_number = any_f_number || each.f_number;
-    if (any_f_number && lens.stop.f_number) {
+    if (by_entrance_pupils(lens)) {
+        for (std::size_t i = 0; i < count; ++i)
+            operand("APER", 0, i + 1,
+                    exact(entrance_pupil_diameter_mm(configured(lens, lens.configurations[i].name))
+                              .value_or(0.0)));
+    } else if (any_f_number && lens.stop.f_number) {
         for (std::size_t i = 0; i < count; ++i)
             operand("APER", 0, i + 1,
                     exact(lens.configurations[i].f_number.value_or(*lens.stop.f_number)));

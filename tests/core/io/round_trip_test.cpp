@@ -104,6 +104,20 @@ TEST(RoundTrip, ConfigurationsKeepTheirNumbers) {
     }
 }
 
+TEST(RoundTrip, StopsOfConfigurations) {
+    Prescription lens = uncoated(bundled("canon_zoom_70_200_f2.8"));
+    double width_mm = 8.0;
+    for (Configuration& each : lens.configurations) each.stop_semi_diameter_mm = width_mm += 2.0;
+    for (const char* file : {"x.zmx", "x.seq"}) {
+        const Prescription back = through(lens, file).lens;
+        for (const Configuration& each : lens.configurations) {
+            const OpticalSystem system = compile(back, d_line_nm, each.name);
+            EXPECT_NEAR(system.stop_mask.semi_diameter_mm, *each.stop_semi_diameter_mm, same)
+                << file << " " << each.name;
+        }
+    }
+}
+
 TEST(RoundTrip, ShapesStopsAndGlasses) {
     Prescription lens = uncoated(bundled("cooke_triplet_50_f5"));
     lens.surfaces[0].aspheric = {1e-6, -2e-9, 3e-12, 4e-15, 5e-18, 6e-21, 7e-24};
