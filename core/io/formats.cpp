@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/io/flaresim_lens.h"
+#include "core/io/flaresim_write.h"
 #include "core/io/imported_lens.h"
 #include "core/io/open_lens_flare.h"
 #include "core/io/optical_bench.h"
@@ -46,12 +47,12 @@ LensFile read_foreign(const FormatSource& source) {
 constexpr std::array formats = {
     LensFormat{"realflare", ".json", is_realflare, read_foreign<import_realflare>, nullptr},
     LensFormat{"Ghostlight or listing JSON", ".json", looks_like_json, read_json, write_json},
-    LensFormat{"Zemax", ".zmx", is_zmx, read_foreign<import_zmx>, nullptr},
-    LensFormat{"CODE V", ".seq", is_seq, read_foreign<import_seq>, nullptr},
+    LensFormat{"Zemax", ".zmx", is_zmx, read_foreign<import_zmx>, write_zmx},
+    LensFormat{"CODE V", ".seq", is_seq, read_foreign<import_seq>, write_seq},
     LensFormat{"OSLO", ".len", is_oslo, read_foreign<import_oslo>, nullptr},
     LensFormat{"PhotonsToPhotos Optical Bench", ".txt", is_optical_bench,
                read_foreign<import_optical_bench>, nullptr},
-    LensFormat{"FlareSim", ".lens", is_flaresim_lens, read_foreign<import_flaresim_lens>, nullptr},
+    LensFormat{"FlareSim", ".lens", is_flaresim_lens, read_foreign<import_flaresim_lens>, write_flaresim_lens},
     LensFormat{"OpenLensFlare", ".xml", is_open_lens_flare, read_foreign<import_open_lens_flare>,
                nullptr},
     LensFormat{"pbrt", ".dat", is_pbrt_lens, read_foreign<import_pbrt_lens>, nullptr},

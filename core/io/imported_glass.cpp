@@ -119,7 +119,7 @@ Medium resolve_glass(const NamedGlass& named, Notes& notes) {
     return {named.name, UnknownGlass{why}};
 }
 
-std::optional<GlassCode> glass_code(std::string_view text) {
+std::optional<GlassCode> coded_glass(std::string_view text) {
     const auto digits = [](std::string_view part) {
         return !part.empty() &&
                std::ranges::all_of(part, [](char c) { return c >= '0' && c <= '9'; });

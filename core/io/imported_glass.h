@@ -35,6 +35,6 @@ bool is_real_glass(std::optional<double> nd, std::optional<double> vd);
 struct GlassCode {
     double nd = 1.0, vd = 0.0;
 };
-std::optional<GlassCode> glass_code(std::string_view text);
+std::optional<GlassCode> coded_glass(std::string_view text);
 
 }  // namespace ghostlight

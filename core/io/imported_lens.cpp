@@ -397,4 +397,26 @@ LensFile complete_import(ImportedLens imported, const std::string& file) {
     return Completion(std::move(imported), file).run();
 }
 
+Prescription sized_again(const Prescription& lens) {
+    ImportedLens open;
+    open.lens = lens;
+    open.surfaces.resize(lens.surfaces.size());
+    for (std::size_t row = 0; row < lens.surfaces.size(); ++row)
+        if (!lens.surfaces[row].semi_diameter_sized)
+            open.surfaces[row].semi_diameter_mm = lens.surfaces[row].semi_diameter_mm;
+    open.stop = lens.stop.surface;
+    open.f_number = lens.stop.f_number;
+    if (!open.f_number) open.f_number = lens.published.f_number;
+    open.half_field_deg = lens.published.half_field_deg;
+    open.sensor_distance_mm = lens.surfaces.empty() ? 0.0 : lens.surfaces.back().thickness_mm;
+    if (lens.sensor.at_paraxial_focus) open.sensor_distance_mm.reset();
+    open.has_sensor_size = true;
+    const Prescription completed = complete_import(std::move(open), {}).lens;
+    Prescription result = lens;
+    for (std::size_t row = 0; row < lens.surfaces.size(); ++row)
+        if (lens.surfaces[row].semi_diameter_sized && completed.surfaces.size() > row)
+            result.surfaces[row].semi_diameter_mm = completed.surfaces[row].semi_diameter_mm;
+    return result;
+}
+
 }  // namespace ghostlight

@@ -47,4 +47,8 @@ struct ImportedLens {
 /// when the lens cannot be opened at all.
 LensFile complete_import(ImportedLens imported, const std::string& file);
 
+/// Sizes the surfaces that are marked as sized once more, after the lens has been mended. Throws
+/// Error for a lens that cannot be.
+Prescription sized_again(const Prescription& lens);
+
 }  // namespace ghostlight

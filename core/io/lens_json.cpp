@@ -4,6 +4,7 @@
 
 #include <charconv>
 
+#include "core/io/coating_json.h"
 #include "core/io/medium_json.h"
 
 namespace ghostlight {
@@ -74,8 +75,9 @@ Surface read_surface(const JsonAt& object, bool is_last) {
     surface.comment = optional_text(object, "comment");
     keep_unknown(object,
                  {"radius_mm", "curvature_per_mm", "conic", "aspheric", "aspheric_mm",
-                  "thickness_mm", "glass", "model", "index", "formula", "unknown_glass",
-                  "semi_diameter_mm", "semi_diameter_sized", "coating", "comment"},
+                  "thickness_mm", "glass", "model", "index", "formula", "agf", "table",
+                  "transmittance", "unknown_glass", "semi_diameter_mm", "semi_diameter_sized",
+                  "coating", "comment"},
                  surface.unknown);
     surface.medium_after = read_medium(object, surface.unknown);
     if (const auto coating = object.find("coating"))

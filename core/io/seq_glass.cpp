@@ -30,7 +30,9 @@ Dispersion fitted_dispersion(const std::vector<double>& wavelengths_nm,
                              const std::vector<double>& indices, double* largest_error) {
     const auto count = static_cast<Eigen::Index>(std::min(wavelengths_nm.size(), indices.size()));
     *largest_error = 0.0;
-    if (count == 1) return ConstantIndex{indices.front()};
+    const bool is_constant =
+        std::ranges::all_of(indices, [&](double n) { return n == indices.front(); });
+    if (count == 1 || is_constant) return ConstantIndex{indices.front()};
     constexpr Eigen::Index most_terms = 3;
     const Eigen::Index terms = std::min(count, most_terms);
     Eigen::MatrixXd matrix(count, terms);
@@ -121,7 +123,7 @@ Medium seq_glass(std::string_view name, const PrivateGlasses& known, const std::
             return numbered_glass({}, *nd, vd, where, notes);
         }
     }
-    if (const auto code = glass_code(name)) {
+    if (const auto code = coded_glass(name)) {
         note_converted(
             notes, where,
             fmt::format("glass code {}: a model glass of nd {} and Vd {}", in_quotes(name),

@@ -13,6 +13,7 @@
 #include "core/io/seq_commands.h"
 #include "core/io/seq_glass.h"
 #include "core/io/text_lines.h"
+#include "core/units.h"
 
 namespace ghostlight {
 namespace {
@@ -20,11 +21,11 @@ namespace {
 /// Say nothing about where light goes in the lens as it stands: settings, labels, optimisation,
 /// tolerances, solves whose result is in the file.
 constexpr std::array bookkeeping = {
-    "LEN", "INI", "TEM", "PRE", "CLS", "SLB", "CCY", "THC", "CUM", "THM", "DER", "WTW",
-    "WTF", "PIK", "GLC", "CCC", "KC",  "AC",  "BC",  "CC",  "DC",  "EC",  "FC",  "GC",
-    "HC",  "JC",  "DOR", "UID", "CRS", "GL1", "VLX", "SPH", "INC", "DLT", "DLF", "DLR",
-    "DLN", "TIR", "BTX", "BTY", "DSX", "DSY", "CMP", "CAN", "IN",  "OUT", "DDM", "REF",
-    "SRF", "CNF", "MNT", "TRA", "DAR", "REV", "RET", "GO",  "VER",
+    "LEN", "INI", "TEM", "PRE", "CLS", "CCY", "THC", "CUM", "THM", "DER", "WTW",
+    "WTF", "PIK", "GLC", "CCC", "KC",  "AC",  "BC",  "CC",  "DC",  "EC",  "FC",
+    "GC",  "HC",  "JC",  "DOR", "UID", "CRS", "GL1", "VLX", "SPH", "INC", "DLT",
+    "DLF", "DLR", "DLN", "TIR", "BTX", "BTY", "DSX", "DSY", "CMP", "CAN", "IN",
+    "OUT", "DDM", "SRF", "CNF", "MNT", "TRA", "DAR", "REV", "RET", "GO",  "VER",
 };
 
 /// Shift, tilt or bend the axis.
@@ -234,6 +235,8 @@ class SeqImport {
             (name == "VUY"   ? fields_.cut_upper
              : name == "VLY" ? fields_.cut_lower
                              : fields_.cut_sides) = numbers(command, 0);
+        } else if (name == "REF") {
+            reference_ = parse_number(command.words.empty() ? "" : command.words[0].text);
         } else if (name == "PIM") {
             paraxial_image_ = true;
         } else if (name == "ZOO" || name == "ZOOM") {
@@ -298,9 +301,9 @@ class SeqImport {
         const bool is_coefficient =
             name.size() == 1 && coefficient_letters.find(name[0]) != std::string_view::npos;
         static const std::set<std::string, std::less<>> words = {
-            "STO", "CIR", "CON", "ASP", "K",   "THI", "RDY", "CUY", "GLA",
-            "GL2", "RMD", "REX", "REY", "ELX", "ELY", "ADX", "ADY", "CUF",
-            "IC",  "RFR", "RDX", "CUX", "HWL", "HOR", "HCT", "HCO"};
+            "STO", "SLB", "CIR", "CON", "ASP", "K",   "THI", "RDY", "CUY",
+            "GLA", "GL2", "RMD", "REX", "REY", "ELX", "ELY", "ADX", "ADY",
+            "CUF", "IC",  "RFR", "RDX", "CUX", "HWL", "HOR", "HCT", "HCO"};
         const bool displaces = std::ranges::find(displacing, name) != displacing.end();
         if (!is_coefficient && !displaces && !words.contains(name)) return false;
         if (rows_.empty()) {
@@ -331,6 +334,8 @@ class SeqImport {
             if (imported_stop_ && *imported_stop_ != *which)
                 note_noticed(notes(), where_, "a second stop: the later one is used", true);
             imported_stop_ = *which;
+        } else if (name == "SLB") {
+            if (next < command.words.size()) row.label = clipped(command.words[next].text, 300);
         } else if (name == "CIR") {
             read_circle(command, next, row, surface_text);
         } else if (name == "K") {
@@ -443,6 +448,7 @@ class SeqImport {
 
     ImportedLens finish();
     bool decide_radius_mode();
+    bool is_reference_d_line() const;
     void build_row(std::size_t number);
     void set_aperture(std::optional<double> object_mm);
     void set_zoom();
@@ -459,6 +465,8 @@ class SeqImport {
     double mm_ = 1.0;
     std::string aperture_, aperture_where_;
     double aperture_value_ = 0.0;
+    std::vector<double> wavelengths_nm_;
+    std::optional<double> reference_;
     std::string field_kind_;
     ListedFields fields_;
     std::optional<std::size_t> imported_stop_;
@@ -509,6 +517,13 @@ bool SeqImport::decide_radius_mode() {
                  true,
                  "check the focal length; convert --radii-are-curvatures reads them the other way");
     return radii;
+}
+
+bool SeqImport::is_reference_d_line() const {
+    constexpr double same_nm = 0.5;
+    const double index = reference_.value_or(1.0) - 1.0;
+    return index >= 0.0 && index < static_cast<double>(wavelengths_nm_.size()) &&
+           std::abs(wavelengths_nm_[static_cast<std::size_t>(index)] - d_line_nm) < same_nm;
 }
 
 void SeqImport::build_row(std::size_t number) {
@@ -661,8 +676,16 @@ ImportedLens SeqImport::finish() {
     // The image plane's own thickness is its defocus from where the last one ends.
     const double defocus_mm = rows_.back().thickness * mm_;
     imported_.sensor_distance_mm = rows_[count].thickness * mm_ + defocus_mm;
-    // PIM keeps the image at the paraxial focus; the thickness is there unless nobody solved it.
-    if (paraxial_image_ && rows_[count].thickness == 0.0) imported_.sensor_distance_mm.reset();
+    // PIM keeps the image at the paraxial focus of the reference wavelength. At another one than d
+    // the thickness that it gave says it better.
+    if (paraxial_image_ && defocus_mm == 0.0 &&
+        (rows_[count].thickness == 0.0 || is_reference_d_line())) {
+        imported_.sensor_distance_mm.reset();
+        note_read(notes(), rows_[count].where,
+                  fmt::format("PIM keeps the image at the paraxial focus, {} mm behind the last "
+                              "surface in the file",
+                              format_number(rows_[count].thickness * mm_)));
+    }
     if (defocus_mm != 0.0)
         note_converted(notes(), rows_.back().where,
                        fmt::format("the image's defocus of {} mm is added to the last thickness",

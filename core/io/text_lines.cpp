@@ -59,12 +59,6 @@ bool same_word(std::string_view a, std::string_view b) {
     return std::ranges::equal(a, b, [](char x, char y) { return upper(x) == upper(y); });
 }
 
-std::string upper_case(std::string_view text) {
-    std::string result(text);
-    std::ranges::transform(result, result.begin(), upper);
-    return result;
-}
-
 std::optional<double> parse_number(std::string_view word) {
     constexpr std::size_t longest = 64;
     if (word.starts_with('+')) word.remove_prefix(1);

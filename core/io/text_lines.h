@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/io/same_name.h"
+
 namespace ghostlight {
 
 /// One line of a text, without its ending. Lines count from 1.
@@ -27,7 +29,6 @@ std::string clipped(std::string_view text, std::size_t bytes);
 
 /// Equal but for the case of ASCII letters.
 bool same_word(std::string_view a, std::string_view b);
-std::string upper_case(std::string_view text);
 
 /// A finite decimal number in the C locale, whatever the program's; a leading "+" and an exponent
 /// written with D are taken. Nothing for anything else, numbers out of range included.

@@ -53,9 +53,9 @@ class ZmxImport {
         for (std::size_t row = 0; row < rows; ++row) read_diameter(row);
         for (std::size_t row = 0; row < rows; ++row) read_row(row);
         read_stop();
+        read_waves();
         read_image_distance();
         read_environment();
-        read_waves();
         read_aperture();
         read_configurations();
         read_fields();
@@ -267,12 +267,39 @@ class ZmxImport {
         const ZmxSurface& last = surface(imported_.lens.surfaces.size() - 1);
         if (last.infinite) return;
         imported_.sensor_distance_mm = last.thickness * mm_;
+        // Kept at the focus by a solve. At another wavelength the stored number says it better.
+        constexpr double same_wavelength_nm = 0.5;
+        if (last.at_paraxial_focus && primary_nm_ &&
+            std::abs(*primary_nm_ - d_line_nm) < same_wavelength_nm) {
+            imported_.sensor_distance_mm.reset();
+            note_read(notes(), last.where,
+                      fmt::format("a solve keeps the image at the paraxial focus, {} mm behind the "
+                                  "last surface in the file",
+                                  format_number(last.thickness * mm_)));
+        }
+        read_sensor();
         if (image().curvature != 0.0)
             note_left_out(notes(), image().where, "the image surface is curved: the sensor is flat",
                           true);
         if (zmx_.afocal)
             note_noticed(notes(), zmx_.fields_where, "the file is afocal in image space", true,
                          "set the sensor's distance");
+    }
+
+    /// A rectangular aperture of the image is the sensor's.
+    void read_sensor() {
+        for (const ZmxAperture& aperture : image().apertures) {
+            if (aperture.word != "SQAP" || aperture.numbers.size() < 2 ||
+                !(aperture.numbers[0] > 0.0) || !(aperture.numbers[1] > 0.0))
+                continue;
+            imported_.lens.sensor.width_mm = 2.0 * aperture.numbers[0] * mm_;
+            imported_.lens.sensor.height_mm = 2.0 * aperture.numbers[1] * mm_;
+            imported_.has_sensor_size = true;
+            note_read(notes(), aperture.where,
+                      fmt::format("sensor {} x {} mm, the image's rectangular aperture",
+                                  format_number(imported_.lens.sensor.width_mm),
+                                  format_number(imported_.lens.sensor.height_mm)));
+        }
     }
 
     void read_environment() {

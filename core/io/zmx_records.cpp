@@ -160,7 +160,9 @@ class ZmxReader {
             if (const auto from = maybe_whole(1), total = from; from && maybe(2))
                 solve = std::pair{*total, *maybe(2)};
         } else if (word == "MAZH") {
-            surface.at_marginal_height = maybe(1).value_or(0.0) == 0.0;
+            surface.at_paraxial_focus =
+                maybe(1).value_or(0.0) == 0.0 && maybe(2).value_or(0.0) == 0.0;
+            ++skipped_[word];
         } else {
             return false;
         }

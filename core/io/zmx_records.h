@@ -46,7 +46,7 @@ struct ZmxSurface {
     std::string comment, coating, coating_where;
     /// Thickness solves: TCOM i total, TOLE i total, MAZH height zone.
     std::optional<std::pair<int, double>> complement, position;
-    bool at_marginal_height = false;
+    bool at_paraxial_focus = false;  ///< MAZH 0 0
 };
 
 /// A line of the multi-configuration editor: THIC 5 2 17.3.

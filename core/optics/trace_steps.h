@@ -246,6 +246,9 @@ GHOSTLIGHT_INLINE void apply(const Amplitudes<V>& film, bool reflects, const Mee
 template <class V, class T>
 GHOSTLIGHT_INLINE Amplitudes<V> amplitudes(const TraceStep<T>& step, const LayerAt<T>* layers,
                                            const V& cos_incidence) {
+    if (step.angles != nullptr)
+        return given_amplitudes(step.n_in, step.angles, step.angle_count, step.n_out,
+                                cos_incidence);
     const LayerAt<T>* own = layers + step.first_layer;
     return step.absorbing
                ? film_amplitudes<true>(step.n_in, own, step.layer_count, step.n_out, cos_incidence)

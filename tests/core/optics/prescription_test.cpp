@@ -165,7 +165,7 @@ TEST(Prescription, EachFaultIsNamedByItsField) {
         {"surfaces[1].formula.number",
          [](auto& lens) {
              lens.surfaces[0].medium_after.dispersion =
-                 FormulaGlass{.formula = 7, .coefficients = {1.0}};
+                 FormulaGlass{.formula = 10, .coefficients = {1.0}};
          }},
         {"surfaces[1].formula.coefficients",
          [](auto& lens) { lens.surfaces[0].medium_after.dispersion = FormulaGlass{}; }},
