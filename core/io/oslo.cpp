@@ -232,12 +232,13 @@ void check_unit(const OsloText& text, ImportedLens& result) {
 
 bool is_oslo(std::string_view text) {
     std::size_t blocks = 0;
-    for (const OsloCommand& command : oslo_commands(text.substr(0, 65536), {})) {
-        if (command.word == "LEN" && !command.parts.empty() && same_word(command.parts[0], "NEW"))
-            return true;
-        if (command.word == "NXT" && ++blocks > 1) return true;
-    }
-    return false;
+    bool begins = false;
+    for_each_oslo_command(text.substr(0, 65536), {}, [&](const OsloCommand& command) {
+        begins = begins || (command.word == "LEN" && !command.parts.empty() &&
+                            same_word(command.parts[0], "NEW"));
+        if (command.word == "NXT") ++blocks;
+    });
+    return begins || blocks > 1;
 }
 
 ImportedLens import_oslo(const FormatSource& source) {

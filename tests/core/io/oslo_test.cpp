@@ -162,8 +162,9 @@ TEST(Oslo, UnknownGlassesAreToBeMended) {
 }
 
 TEST(Oslo, CommandsQuotesAndComments) {
-    const auto commands =
-        oslo_commands("LEN NEW \"a // b; c\" 1 // d\nRD 5; th 2;;\r\n\"q\" 3", "f");
+    std::vector<OsloCommand> commands;
+    for_each_oslo_command("LEN NEW \"a // b; c\" 1 // d\nRD 5; th 2;;\r\n\"q\" 3", "f",
+                          [&](const OsloCommand& each) { commands.push_back(each); });
     ASSERT_EQ(commands.size(), 4u);
     EXPECT_EQ(commands[0].parts, (std::vector<std::string>{"NEW", "a // b; c", "1"}));
     EXPECT_EQ(commands[2].word, "TH");

