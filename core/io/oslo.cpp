@@ -53,6 +53,26 @@ Medium model_glass(const std::string& name, std::span<const double> wavelengths_
     return medium_of({.name = {}, .nd = nd, .vd = vd}, place, notes);
 }
 
+/// O_PBH1, H_LAF2: a letter for the maker before the name.
+Medium named_glass(const std::string& name, const Place& place, Notes& notes) {
+    Notes of_name;
+    const Medium medium = medium_of({.name = name}, place, of_name);
+    const bool has_maker = name.size() > 2 && name[1] == '_';
+    if (has_maker && std::holds_alternative<UnknownGlass>(medium.dispersion)) {
+        Notes of_rest;
+        const Medium rest = medium_of({.name = name.substr(2)}, place, of_rest);
+        if (!std::holds_alternative<UnknownGlass>(rest.dispersion)) {
+            note_converted(notes, place.where,
+                           fmt::format("glass {}: its first letter is the maker's, {} is looked up",
+                                       in_quotes(name), in_quotes(name.substr(2))));
+            notes.insert(notes.end(), of_rest.begin(), of_rest.end());
+            return rest;
+        }
+    }
+    notes.insert(notes.end(), of_name.begin(), of_name.end());
+    return medium;
+}
+
 Medium medium_of_parts(const OsloSurface& surface, Notes& notes) {
     const auto& parts = surface.glass;
     const Place& place = surface.glass_place;
@@ -66,7 +86,7 @@ Medium medium_of_parts(const OsloSurface& surface, Notes& notes) {
         else if (name.empty())
             name = clipped(parts[i], 60);
     }
-    if (!is_model && !name.empty()) return medium_of({.name = name}, place, notes);
+    if (!is_model && !name.empty()) return named_glass(name, place, notes);
     if (numbers.empty())
         place.refuse("no glass is named", in_quotes(parts[0]), "a glass or its indices");
     for (std::size_t i = 0; i < numbers.size(); ++i)

@@ -156,6 +156,11 @@ TEST(Oslo, UnknownGlassesAreToBeMended) {
         "NXT\nEND 3\n");
     EXPECT_TRUE(
         std::holds_alternative<UnknownGlass>(lens.lens.surfaces[0].medium_after.dispersion));
+    const ImportedLens made = import(
+        "LEN NEW \"x\" 1 3\nEBR 1\nTH 1e20\nNXT\nGLA O_N-BK7\nRD 50\nTH 4\nNXT\nAIR\nRD -50\nTH "
+        "90\n"
+        "NXT\nEND 3\n");
+    EXPECT_EQ(made.lens.surfaces[0].medium_after, *bundled_glasses().find("N-BK7"));
     const Note* note = note_with(lens.notes, "NOSUCH17");
     EXPECT_EQ(note->severity, Note::Severity::error);
     EXPECT_EQ(note->where, "line 5");
