@@ -223,15 +223,15 @@ std::string bytes_of(const fs::path& file) {
 /// The bundled lenses and the test data, but for what is no lens or meant to be refused.
 std::vector<fs::path> sample_files() {
     std::vector<fs::path> files;
-    for (const fs::path folder : {GHOSTLIGHT_LENS_DIR, GHOSTLIGHT_TEST_DATA_DIR})
-        for (auto entry = fs::recursive_directory_iterator(folder);
-             entry != fs::recursive_directory_iterator(); ++entry) {
-            const std::string name = entry->path().filename().string();
-            if (entry->is_directory() &&
-                (name == "malformed" || name == "expected" || name == "glasses"))
-                entry.disable_recursion_pending();
-            if (entry->is_regular_file()) files.push_back(entry->path());
-        }
+    for (const auto& entry : fs::directory_iterator(GHOSTLIGHT_LENS_DIR))
+        if (entry.is_regular_file()) files.push_back(entry.path());
+    for (auto entry = fs::recursive_directory_iterator(GHOSTLIGHT_TEST_DATA_DIR);
+         entry != fs::recursive_directory_iterator(); ++entry) {
+        const std::string name = entry->path().filename().string();
+        if (entry->is_directory() && (name == "malformed" || name == "expected"))
+            entry.disable_recursion_pending();
+        if (entry->is_regular_file()) files.push_back(entry->path());
+    }
     std::ranges::sort(files);  // so that a number means the same file everywhere
     return files;
 }
