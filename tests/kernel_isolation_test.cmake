@@ -15,7 +15,7 @@ foreach(object IN LISTS OBJECTS)
         # "W" and "u": weak functions and unique globals. Weak objects ("V") hold no code.
         if(symbol MATCHES "^[0-9a-f]+ [Wu] (.*)$")
             set(function "${CMAKE_MATCH_1}")
-            if(NOT function MATCHES "::v3::|_MachineFlagsTemplate")
+            if(NOT function MATCHES "::v[34]::|_MachineFlagsTemplate")
                 cmake_path(GET object FILENAME name)
                 list(APPEND findings "${name}: ${function}")
             endif()

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/flare/ghost_mesh.h"
+#include "core/flare/planned_flare.h"
 #include "core/ghosts/pupil.h"
 #include "core/ghosts/weighted_grid.h"
 #include "core/parallel.h"
@@ -13,6 +14,9 @@ namespace ghostlight {
 namespace {
 
 constexpr int band_rows = 16;
+/// The reference's grids: what is left of a bend is far below a pixel.
+constexpr double reference_bend_px = 0.01;
+constexpr int coarsest_reference = 256, finest_reference = 640;
 constexpr double color_margin = 0.04;  ///< of a pupil's breadth, when it is shared by wavelengths
 
 using Clock = std::chrono::steady_clock;
@@ -86,6 +90,14 @@ void add_band(const BandedMesh& banded, std::size_t band, BandRaster& raster) {
 
 std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequest& request,
                                        std::stop_token stop) {
+    if (request.method == FlareMethod::planned)
+        return render_planned(flare_scene(lens, request.spectrum, 16, request.threads), request,
+                              std::move(stop));
+    return render_uniform(lens, request, std::move(stop));
+}
+
+std::optional<FlareImage> render_uniform(const Prescription& lens, const FlareRequest& request,
+                                         std::stop_token stop) {
     const auto began = Clock::now();
     const auto samples = sample(request.spectrum, request.spectral_samples);
     const auto colors = sample_colors(request.spectrum, samples);
@@ -112,8 +124,9 @@ std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequ
     bool finished = parallel_for(ghosts.size(), request.threads, stop, [&](std::size_t g) {
         // Colour moves a pupil's edge by far less than a cell: one wavelength finds it for all.
         const OpticalSystem& system = systems[samples.size() / 2];
-        pupils[g] =
-            find_pupil(system, trace_path<float>(system, ghosts[g]), frame, PupilSearch::quick);
+        pupils[g] = find_pupil(
+            system, trace_path<float>(system, ghosts[g]), frame,
+            request.method == FlareMethod::reference ? PupilSearch::thorough : PupilSearch::quick);
         if (samples.size() > 1) pupils[g].box = widened(pupils[g].box, color_margin);
     });
     if (!finished) return std::nullopt;
@@ -128,10 +141,14 @@ std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequ
         const GhostPath& ghost = ghosts[t / samples.size()];
         const auto path = trace_path<float>(system, ghost);
         const auto probe = probe_bundle(system, path, frame, pupil.box);
-        const int cells = request.grid > 0
-                              ? request.grid
-                              : cells_for_bend(probe, request.bend_px * pixels.pitch_mm, reach_mm);
-        const auto grid = weighted_grid(system, path, frame, pupil.box, probe, cells);
+        const bool reference = request.method == FlareMethod::reference;
+        const double bend_mm = (reference ? reference_bend_px : request.bend_px) * pixels.pitch_mm;
+        int cells = request.grid;
+        if (cells == 0)
+            cells = reference ? std::max(coarsest_reference,
+                                         cells_for_bend(probe, bend_mm, reach_mm, finest_reference))
+                              : cells_for_bend(probe, bend_mm, reach_mm);
+        const auto grid = weighted_grid(system, path, frame, pupil.box, probe, cells, reference);
         meshes[t].mesh = ghost_mesh(grid, pixels, 1.0);
         meshes[t].rays = grid.rays() + probe.rays.size();
         sort_into_bands(meshes[t], pixels, bands);

@@ -5,6 +5,8 @@
 #include <stop_token>
 #include <vector>
 
+#include "core/flare/flare_plan.h"
+#include "core/flare/flare_scene.h"
 #include "core/flare/spectrum.h"
 #include "core/ghosts/ghost_path.h"
 #include "core/optics/prescription.h"
@@ -12,10 +14,21 @@
 
 namespace ghostlight {
 
+/// How a picture is made.
+enum class FlareMethod {
+    planned,  ///< the least work for a tolerance
+    uniform,  ///< every ghost at every wavelength on a grid of its own (Hullin et al. 2011)
+    /// `uniform`, with the thorough search for pupils: what the others are compared with.
+    reference,
+};
+
 /// What to draw, and how finely. The direct image is not part of the ghost layer.
 struct FlareRequest {
     LightDirection light;
     Spectrum spectrum = Monochromatic{};
+    FlareMethod method = FlareMethod::planned;
+    /// planned: L1 error of the ghost layer's irradiance on the sensor, relative to its light.
+    double tolerance = 0.02;
     int width_px = 1280;       ///< the height follows from the sensor's shape
     double bend_px = 0.2;      ///< each ghost's grid is as fine as keeps its map bilinear to this
     int grid = 0;              ///< cells across every ghost's pupil; 0 = by bend_px
@@ -26,7 +39,7 @@ struct FlareRequest {
 
 /// Wall time of the parts of a picture, ms.
 struct FlareTimes {
-    double bounds_ms = 0.0, trace_ms = 0.0, raster_ms = 0.0, total_ms = 0.0;
+    double bounds_ms = 0.0, trace_ms = 0.0, raster_ms = 0.0, composite_ms = 0.0, total_ms = 0.0;
 };
 
 /// Irradiance / E0 on the sensor. Row 0 is the lowest y, column 0 the lowest x, as seen on the
@@ -42,6 +55,7 @@ struct FlareImage {
     double flux_on_sensor_mm2 = 0.0;
     std::size_t ghosts = 0, rays = 0, cells = 0;
     FlareTimes times;
+    FlarePlan plan;  ///< of the method `planned`; else empty
 };
 
 /// Traces every two-reflection ghost in uniform bundles and accumulates them with exact pixel
@@ -50,6 +64,10 @@ struct FlareImage {
 /// nothing when stopped.
 std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequest& request,
                                        std::stop_token stop = {});
+
+/// The method `uniform`.
+std::optional<FlareImage> render_uniform(const Prescription& lens, const FlareRequest& request,
+                                         std::stop_token stop = {});
 
 /// Turns sensor data into an upright camera picture with row 0 at the top: the sensor seen from
 /// behind and rotated by 180°, so that the picture's right is −x and its top is −y. In memory that

@@ -1,36 +1,17 @@
 #include "core/ghosts/bundle.h"
 
 #include "core/ghosts/bundle_kernel.h"
+#include "core/instruction_set.h"
 
 namespace ghostlight {
 namespace {
 
-#ifdef GHOSTLIGHT_HAVE_X86_ISA
-bool has_v3() {
-    static const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-                            __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("f16c");
-    return has;
-}
 template <class T>
 void run(const BundleView<T>& view) {
-    has_v3() ? kernels_v3::trace_bundle_lanes(view) : kernels_v2::trace_bundle_lanes(view);
+    GHOSTLIGHT_DISPATCH(trace_bundle_lanes, view);
 }
-#else
-template <class T>
-void run(const BundleView<T>& view) {
-    kernels_generic::trace_bundle_lanes(view);
-}
-#endif
 
 }  // namespace
-
-const char* instruction_set() {
-#ifdef GHOSTLIGHT_HAVE_X86_ISA
-    return has_v3() ? "AVX2" : "SSE4.2";
-#else
-    return "portable";
-#endif
-}
 
 template <class T>
 void trace_bundle(const TracePath<T>& path, const BeamFrame& frame, Weights weights,
@@ -82,6 +63,11 @@ void trace_bundle(const TracePath<T>& path, const BeamFrame& frame, Weights weig
     view.reflectance[1] = bundle.reflectance[1].data();
     view.onset[0] = bundle.onset[0].data();
     view.onset[1] = bundle.onset[1].data();
+    if (bundle.keep_cosines) {
+        bundle.cosine_stride = padded;
+        bundle.cosines.resize(path.steps.size() * padded);
+        view.cosines = bundle.cosines.data();
+    }
     view.weights = static_cast<int>(weights);
     run(view);
     for (auto* channel : {&bundle.u_mm, &bundle.v_mm, &bundle.x_mm, &bundle.y_mm, &bundle.weight,

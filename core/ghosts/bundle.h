@@ -35,6 +35,10 @@ struct Bundle {
     /// There, how far from the onset of total reflection: cos² of refraction, negative beyond.
     std::array<std::vector<T>, 2> onset;
     int stop_crossings = 0;
+    bool keep_cosines = false;
+    /// On request: cosines of incidence, step by step, each step's `cosine_stride` apart.
+    std::vector<T> cosines;
+    std::size_t cosine_stride = 0;
 
     std::size_t size() const { return u_mm.size(); }
 };
@@ -48,8 +52,5 @@ extern template void trace_bundle(const TracePath<float>&, const BeamFrame&, Wei
                                   Bundle<float>&);
 extern template void trace_bundle(const TracePath<double>&, const BeamFrame&, Weights,
                                   Bundle<double>&);
-
-/// "AVX2", "SSE4.2" or "portable": the instruction set in use, for status lines and reports.
-const char* instruction_set();
 
 }  // namespace ghostlight

@@ -61,6 +61,9 @@ namespace ghostlight::GHOSTLIGHT_JOIN(kernels_, GHOSTLIGHT_ISA) {
         const Meeting<V> meeting = meet(step, b.aspheric, p.margin, p.ray);
         narrow(p.margin, smaller(meeting.turned_margin,
                                  smaller(meeting.miss_margin, meeting.hemisphere_margin)));
+        if (b.cosines != nullptr)
+            store(meeting.cos_incidence,
+                  b.cosines + static_cast<std::size_t>(&step - b.steps) * b.count + i);
         const Vec3<V>& at = p.ray.position;
         if (step.at_stop) {
             store(at.x, b.stop_u[crossing] + i);

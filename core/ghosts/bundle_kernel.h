@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "core/instruction_set.h"
 #include "core/optics/trace_path.h"
 
 namespace ghostlight {
@@ -21,25 +22,19 @@ struct BundleView {
     T* const* stop_u;
     T* const* stop_v;
     T *reflectance[2], *onset[2];
+    T* cosines;   ///< of incidence, `count` for each step; null when nobody asks
     int weights;  ///< Weights, as a number
 };
 
 /// Lanes of the widest instruction set, for the narrowest type.
 inline constexpr std::size_t bundle_padding = 16;
 
-#ifdef GHOSTLIGHT_HAVE_X86_ISA
 #define GHOSTLIGHT_BUNDLE_KERNELS(set)                  \
     namespace set {                                     \
     void trace_bundle_lanes(const BundleView<float>&);  \
     void trace_bundle_lanes(const BundleView<double>&); \
     }
-GHOSTLIGHT_BUNDLE_KERNELS(kernels_v2)
-GHOSTLIGHT_BUNDLE_KERNELS(kernels_v3)
-#else
-namespace kernels_generic {
-void trace_bundle_lanes(const BundleView<float>&);
-void trace_bundle_lanes(const BundleView<double>&);
-}  // namespace kernels_generic
-#endif
+GHOSTLIGHT_EVERY_SET(GHOSTLIGHT_BUNDLE_KERNELS)
+#undef GHOSTLIGHT_BUNDLE_KERNELS
 
 }  // namespace ghostlight

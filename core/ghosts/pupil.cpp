@@ -1,50 +1,25 @@
 #include "core/ghosts/pupil.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numbers>
 #include <vector>
 
+#include "core/ghosts/cell_judgement.h"
 #include "core/optics/trace_steps.h"
 
 namespace ghostlight {
 namespace {
 
-/// What a search spends.
-struct Effort {
-    std::uint32_t first_level_cells;
-    int blind_levels;            ///< cells of failing corners are kept that long
-    std::size_t enough_passing;  ///< nodes that pass: the region is resolved
-    std::size_t most_cells;
-};
-constexpr Effort thorough{24, 3, 100, 3000};
-constexpr Effort quick{12, 1, 40, 600};
+constexpr SearchEffort thorough{24, 3, 100, 3000};
+constexpr SearchEffort quick{12, 1, 40, 600};
 
-constexpr double blind_clearance = 5.0;  ///< r_rel beside a failing corner that may still fall to 1
-constexpr double first_level_dip = 0.15;      ///< of r_rel inside a cell; falls fourfold a level
-constexpr double beside_failing_share = 3.0;  ///< how far stop coordinates may reach there
-constexpr int lone_corner_levels = 6;
 constexpr int finest_level = 16;
 
 std::uint64_t key_of(std::uint32_t i, std::uint32_t j) { return (std::uint64_t{j} << 32) | i; }
-
-struct Range {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    void add(double value) {
-        low = std::min(low, value);
-        high = std::max(high, value);
-    }
-    void widen(double share) {
-        const double by = share * (high - low);
-        low -= by;
-        high += by;
-    }
-    /// Distance of the range from zero.
-    double distance() const { return std::max({0.0, low, -high}); }
-};
 
 /// The nodes of a level's cells, traced once each.
 template <class T>
@@ -89,65 +64,6 @@ Nodes<T> trace_nodes(const TracePath<T>& path, const BeamFrame& frame, const Pup
     return nodes;
 }
 
-/// Whether a ray through the cell may pass, if the map does not bend by more than `share` of its
-/// change across the cell. A cell whose corners all fail is kept on the first levels only.
-template <class T>
-bool may_pass(const Nodes<T>& nodes, const PupilCell& cell, int level, double stop_radius_mm,
-              const Effort& effort) {
-    double share = level == 0 ? 0.75 : 0.4;
-    const Bundle<T>& rays = nodes.rays;
-    Range margin, clearance;
-    std::size_t corner[4];
-    int valid = 0;
-    for (std::uint32_t k = 0; k < 4; ++k) {
-        corner[k] = nodes.at(cell.i + (k & 1), cell.j + (k >> 1));
-        margin.add(rays.margin[corner[k]]);
-        if (rays.margin[corner[k]] >= T(0)) ++valid;
-    }
-    const bool singular = margin.low < margin.high - margin.low;
-    if (valid == 0 && level == 0) return true;
-    margin.widen(share);
-    if (margin.high < 0.0) return false;
-    if (valid == 0) return level < effort.blind_levels;
-    // Past a miss or total reflection the map is only continued, and next to it it turns sharply:
-    // trust the valid corners alone, and less.
-    if (singular && level <= effort.blind_levels) share = 2.0;
-    for (const std::size_t c : corner)
-        if (rays.margin[c] >= T(0)) clearance.add(rays.r_rel[c]);
-    if (valid < 4 && level <= effort.blind_levels) return clearance.low < blind_clearance;
-    clearance.widen(share);
-    // r_rel is a maximum over surfaces and may dip between equal corners.
-    if (clearance.low - std::ldexp(first_level_dip, -2 * level) > 1.0) return false;
-    // One valid corner alone says nothing about how far the stop coordinates reach.
-    if (valid == 1) return level <= lone_corner_levels;
-    if (valid < 4) share = beside_failing_share;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(rays.stop_crossings); ++k) {
-        Range u, v;
-        for (const std::size_t c : corner) {
-            if (rays.margin[c] < T(0)) continue;
-            u.add(static_cast<double>(rays.stop_u_mm[k][c]));
-            v.add(static_cast<double>(rays.stop_v_mm[k][c]));
-        }
-        u.widen(share);
-        v.widen(share);
-        if (std::hypot(u.distance(), v.distance()) > stop_radius_mm) return false;
-    }
-    return true;
-}
-
-template <class T>
-std::size_t passing_nodes(const Bundle<T>& rays, double stop_radius_mm) {
-    std::size_t count = 0;
-    for (std::size_t n = 0; n < rays.size(); ++n) {
-        bool passes = rays.margin[n] >= T(0) && rays.r_rel[n] <= T(1);
-        for (std::size_t k = 0; k < static_cast<std::size_t>(rays.stop_crossings); ++k)
-            passes =
-                passes && std::hypot(rays.stop_u_mm[k][n], rays.stop_v_mm[k][n]) <= stop_radius_mm;
-        count += passes ? 1 : 0;
-    }
-    return count;
-}
-
 }  // namespace
 
 PupilBox entrance_box(const OpticalSystem& system, const BeamFrame& frame) {
@@ -177,7 +93,7 @@ PupilBox entrance_box(const OpticalSystem& system, const BeamFrame& frame) {
 template <class T>
 Pupil find_pupil(const OpticalSystem& system, const TracePath<T>& path, const BeamFrame& frame,
                  PupilSearch search) {
-    const Effort& effort = search == PupilSearch::thorough ? thorough : quick;
+    const SearchEffort& effort = search == PupilSearch::thorough ? thorough : quick;
     const double stop_radius_mm = system.stop_mask.semi_diameter_mm;
     Pupil pupil;
     pupil.entrance = entrance_box(system, frame);
@@ -188,10 +104,13 @@ Pupil find_pupil(const OpticalSystem& system, const TracePath<T>& path, const Be
         const Nodes<T> nodes = trace_nodes(path, frame, pupil.entrance, pupil.across, pupil.cells);
         pupil.rays += nodes.keys.size();
         std::erase_if(pupil.cells, [&](const PupilCell& cell) {
-            return !may_pass(nodes, cell, level, stop_radius_mm, effort);
+            std::array<std::size_t, 4> corners;
+            for (std::uint32_t k = 0; k < 4; ++k)
+                corners[k] = nodes.at(cell.i + (k & 1), cell.j + (k >> 1));
+            return !may_pass(nodes.rays, corners, level, stop_radius_mm, effort);
         });
         if (pupil.empty()) return pupil;
-        if (passing_nodes(nodes.rays, stop_radius_mm) >= effort.enough_passing ||
+        if (passing_rays(nodes.rays, stop_radius_mm) >= effort.enough_passing ||
             pupil.cells.size() >= effort.most_cells || level == finest_level)
             break;
         std::vector<PupilCell> finer;

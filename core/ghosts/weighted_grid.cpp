@@ -86,8 +86,9 @@ RayField<float> probe_bundle(const OpticalSystem& system, const TracePath<float>
     return trace_field(system, path, frame, std::move(points), Weights::polarised);
 }
 
-int cells_for_bend(const RayField<float>& probe, double bend_mm, double reach_mm) {
-    constexpr int unknown_cells = 32, finest_cells = 256;
+int cells_for_bend(const RayField<float>& probe, double bend_mm, double reach_mm,
+                   int finest_cells) {
+    constexpr int unknown_cells = 32;
     double sum = 0.0;
     int count = 0;
     const auto &x = probe.rays.x_mm, &y = probe.rays.y_mm;
@@ -110,8 +111,8 @@ int cells_for_bend(const RayField<float>& probe, double bend_mm, double reach_mm
 
 SplitGrid<float> weighted_grid(const OpticalSystem& system, const TracePath<float>& path,
                                const BeamFrame& frame, const PupilBox& box,
-                               const RayField<float>& probe, int cells) {
-    const bool smooth = roughness(probe) < smooth_enough;
+                               const RayField<float>& probe, int cells, bool exact_weights) {
+    const bool smooth = !exact_weights && roughness(probe) < smooth_enough;
     auto grid = trace_grid(system, path, frame, box, cells, split_cells,
                            smooth ? Weights::none : Weights::polarised);
     if (smooth) fill_weights(probe, grid.base);

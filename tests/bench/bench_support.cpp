@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "core/ghosts/bundle.h"
+#include "core/instruction_set.h"
 #include "core/io/lens_file.h"
 #include "core/optics/optical_system.h"
 #include "core/optics/paraxial.h"
@@ -27,7 +27,7 @@ class Collector : public benchmark::BenchmarkReporter {
         std::string load;
         for (const double value : context.cpu_info.load_avg) load += fmt::format(" {:.2f}", value);
         fmt::print("{} cores, load{}, trace on {}\n", context.cpu_info.num_cpus, load,
-                   instruction_set());
+                   instruction_set_name());
         return true;
     }
 
@@ -94,7 +94,7 @@ int run(int argc, char** argv, const Program& program) {
     arguments.push_back(nullptr);
     benchmark::Initialize(&count, arguments.data());
     if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 1;
-    benchmark::AddCustomContext("instruction_set", instruction_set());
+    benchmark::AddCustomContext("instruction_set", instruction_set_name());
     benchmark::AddCustomContext("compiler", GHOSTLIGHT_BENCH_COMPILER);
     benchmark::AddCustomContext("flags", GHOSTLIGHT_BENCH_FLAGS);
     benchmark::RegisterBenchmark(fma_f32, run_calibration<float>);

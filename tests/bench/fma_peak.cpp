@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "core/ghosts/bundle.h"
+#include "core/instruction_set.h"
 
 namespace ghostlight::bench {
 namespace {
@@ -45,7 +46,7 @@ GHOSTLIGHT_FMA_LOOP(loop_v2, , 16)
 template <class T>
 double fma_operations() {
 #ifdef GHOSTLIGHT_HAVE_X86_ISA
-    if (std::string_view(instruction_set()) == "AVX2") return loop_v3<T>();
+    if (instruction_set() == InstructionSet::v3) return loop_v3<T>();
 #endif
     return loop_v2<T>();
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/ghosts/bundle.h"
+#include "core/instruction_set.h"
 #include "core/ghosts/pupil.h"
 #include "core/optics/optical_system.h"
 #include "tests/bench/bench_support.h"
@@ -148,7 +149,7 @@ void declare() {
                 run_scalar(state, *scene, weights, scalar_portable::trace_rays);
             });
 #ifdef GHOSTLIGHT_HAVE_X86_ISA
-            if (std::string_view(instruction_set()) == "AVX2")
+            if (instruction_set() == InstructionSet::v3)
                 add(scalar_fused, [=](benchmark::State& state) {
                     run_scalar(state, *scene, weights, scalar_v3::trace_rays);
                 });

@@ -1,0 +1,93 @@
+#include "core/flare/film_tables.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "core/flare/film_tables_kernel.h"
+#include "core/instruction_set.h"
+#include "core/parallel.h"
+
+namespace ghostlight {
+namespace {
+
+constexpr int nodes = 129;  ///< of cos θ from 0 to 1
+constexpr std::size_t padded_nodes = (nodes + film_padding - 1) / film_padding * film_padding;
+constexpr std::size_t tables_per_surface = 4;  ///< from either side, reflected or transmitted
+
+void curve(const FilmCurveView& view) { GHOSTLIGHT_DISPATCH(film_curve, view); }
+
+}  // namespace
+
+FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threads)
+    : stride_((systems.size() + film_padding - 1) / film_padding * film_padding),
+      surfaces_(systems.front().surfaces.size()) {
+    const std::size_t table_size = static_cast<std::size_t>(nodes) * stride_;
+    values_.assign(surfaces_ * tables_per_surface * table_size, 0.0F);
+    invisible_.assign(surfaces_, true);
+    for (std::size_t s = 0; s < surfaces_; ++s)
+        for (const OpticalSystem& system : systems)
+            if (!is_invisible(system.surfaces[s].film)) invisible_[s] = false;
+    std::vector<float> cosines(padded_nodes, 1.0F);
+    for (int i = 0; i < nodes; ++i)
+        cosines[static_cast<std::size_t>(i)] = static_cast<float>(i) / (nodes - 1);
+    parallel_for(surfaces_ * 2, threads, {}, [&](std::size_t task) {
+        const std::size_t surface = task / 2;
+        const bool forward = task % 2 == 0;
+        if (invisible_[surface]) return;
+        std::vector<float> r(padded_nodes), t(padded_nodes);
+        std::vector<LayerAt<float>> layers;
+        for (std::size_t w = 0; w < systems.size(); ++w) {
+            const Film& own = systems[w].surfaces[surface].film;
+            const Film film = forward ? own : reversed(own);
+            layers.clear();
+            for (const FilmLayer& layer : film.layers)
+                layers.push_back({static_cast<float>(layer.n * layer.n - layer.k * layer.k),
+                                  static_cast<float>(2.0 * layer.n * layer.k),
+                                  static_cast<float>(2.0 * std::numbers::pi / film.wavelength_nm *
+                                                     layer.thickness_nm)});
+            curve({.n_in = static_cast<float>(film.n_in),
+                   .n_out = static_cast<float>(film.n_out),
+                   .layers = layers.data(),
+                   .layer_count = static_cast<int>(layers.size()),
+                   .absorbing = is_absorbing(film),
+                   .count = padded_nodes,
+                   .cosines = cosines.data(),
+                   .reflectance = r.data(),
+                   .transmittance = t.data()});
+            for (const bool reflects : {false, true}) {
+                float* to = values_.data() + (table(surface, forward, reflects) - values_.data());
+                for (std::size_t i = 0; i < static_cast<std::size_t>(nodes); ++i)
+                    to[i * stride_ + w] = reflects ? r[i] : t[i];
+            }
+        }
+    });
+}
+
+const float* FilmTables::table(std::size_t surface, bool forward, bool reflects) const {
+    const std::size_t which =
+        surface * tables_per_surface + (forward ? 0U : 2U) + (reflects ? 1U : 0U);
+    return values_.data() + which * static_cast<std::size_t>(nodes) * stride_;
+}
+
+void FilmTables::weights(const TracePath<float>& path, const Bundle<float>& rays,
+                         std::vector<float>& weights) const {
+    std::vector<const float*> tables;
+    tables.reserve(path.steps.size());
+    for (const TraceStep<float>& step : path.steps) {
+        const auto surface = static_cast<std::size_t>(step.surface);
+        tables.push_back(invisible_[surface] ? nullptr
+                                             : table(surface, step.sense > 0.0F, step.reflects));
+    }
+    weights.resize(rays.size() * stride_);
+    const SpectralWeightsView view{.cosines = rays.cosines.data(),
+                                   .stride = rays.cosine_stride,
+                                   .step_count = path.steps.size(),
+                                   .count = rays.size(),
+                                   .tables = tables.data(),
+                                   .nodes = nodes,
+                                   .wavelengths = stride_,
+                                   .weights = weights.data()};
+    GHOSTLIGHT_DISPATCH(spectral_weights, view);
+}
+
+}  // namespace ghostlight

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/ghosts/bundle.h"
+#include "core/optics/optical_system.h"
+
+namespace ghostlight {
+
+/// Mean reflectance and transmittance of s and p at every surface of a lens, from both sides, at
+/// several wavelengths, over the cosine of incidence: linear between nodes, which for the films of
+/// lenses is good to 1e-3 of R. A ray's weights at all wavelengths then cost one look-up at each
+/// surface instead of one film a wavelength.
+class FilmTables {
+   public:
+    /// `systems`: the lens at each wavelength, in one order.
+    FilmTables(const std::vector<OpticalSystem>& systems, unsigned threads);
+
+    /// Wavelengths, padded; those that were given come first.
+    std::size_t stride() const { return stride_; }
+
+    /// Weights of every ray of a bundle that kept its cosines, `stride()` values a ray.
+    void weights(const TracePath<float>& path, const Bundle<float>& rays,
+                 std::vector<float>& weights) const;
+
+   private:
+    std::size_t stride_ = 0, surfaces_ = 0;
+    std::vector<float> values_;
+    std::vector<bool> invisible_;  ///< by surface: at no wavelength anything there
+
+    const float* table(std::size_t surface, bool forward, bool reflects) const;
+};
+
+}  // namespace ghostlight

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/ghosts/ghost_path.h"
+#include "core/ghosts/pupil.h"
+
+namespace ghostlight {
+
+/// What becomes of a ghost in a picture.
+enum class GhostFate {
+    drawn,
+    off_sensor,      ///< its light lands beside the sensor
+    nothing_passes,  ///< no ray was found that passes
+    left_out         ///< not traced: only bounded
+};
+
+/// How one ghost of a picture is drawn, and what that costs. Fluxes are over E0, mm².
+struct PlannedGhost {
+    GhostPath path;
+    GhostFate fate = GhostFate::drawn;
+    PupilBox box;           ///< of the entrance, in a frame whose field lies in the y–z plane
+    int cells = 0;          ///< across the box
+    int level = 0;          ///< drawn at 1/2^level of the size
+    int bands = 1;          ///< of the spectrum, each with a geometry of its own
+    double flux_mm2 = 0.0;  ///< on the sensor, from the probe
+    double allowance_mm2 = 0.0;  ///< error that the plan grants
+    double error_mm2 = 0.0;      ///< estimated L1 error of its picture
+    double bound_mm2 = 0.0;      ///< of what a ghost that is left out could have carried
+    std::size_t rays = 0;
+};
+
+/// What is drawn for a tolerance, how finely, and what is left out.
+struct FlarePlan {
+    double tolerance = 0.0;  ///< asked: relative L1 error of the ghost layer on the sensor
+    std::vector<PlannedGhost> ghosts;
+    double flux_mm2 = 0.0;      ///< of the ghost layer on the sensor
+    double error_mm2 = 0.0;     ///< estimated, of all that is drawn
+    double left_out_mm2 = 0.0;  ///< sum of the bounds of what is left out
+
+    double estimated_error() const { return flux_mm2 > 0.0 ? error_mm2 / flux_mm2 : 0.0; }
+    std::size_t count(GhostFate fate) const;
+};
+
+/// Shares an error out among ghosts. With the cost of a ghost falling as 1/error, the least work
+/// for a given sum of errors has each error in proportion to the root of what it multiplies, here
+/// the flux; none exceeds `most_share` of its ghost, so that faint ghosts stay recognisable.
+std::vector<double> share_out(const std::vector<double>& flux_mm2, double error_mm2,
+                              double most_share);
+
+}  // namespace ghostlight

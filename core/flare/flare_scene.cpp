@@ -1,0 +1,64 @@
+#include "core/flare/flare_scene.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace ghostlight {
+namespace {
+
+constexpr double shortest_nm = 400.0, longest_nm = 700.0;
+constexpr int geometry_nodes = 3;
+
+double inverse_square(double nm) { return 1.0 / (nm * nm); }
+
+std::vector<double> geometry_wavelengths_nm() {
+    const double low = inverse_square(longest_nm), high = inverse_square(shortest_nm);
+    std::vector<double> wavelengths;
+    for (int k = 0; k < geometry_nodes; ++k) {
+        const double at = std::cos(std::numbers::pi * (2 * k + 1) / (2.0 * geometry_nodes));
+        wavelengths.push_back(1.0 / std::sqrt(0.5 * (low + high) + 0.5 * (high - low) * at));
+    }
+    return wavelengths;
+}
+
+std::vector<OpticalSystem> compiled(const Prescription& lens,
+                                    const std::vector<double>& wavelengths_nm) {
+    std::vector<OpticalSystem> systems;
+    for (const double nm : wavelengths_nm) systems.push_back(compile(lens, nm));
+    return systems;
+}
+
+}  // namespace
+
+std::vector<double> FlareScene::interpolation(double wavelength_nm) const {
+    std::vector<double> shares(geometry.size(), 1.0);
+    const double at = inverse_square(wavelength_nm);
+    for (std::size_t i = 0; i < geometry.size(); ++i)
+        for (std::size_t k = 0; k < geometry.size(); ++k)
+            if (k != i) {
+                const double other = inverse_square(geometry[k].wavelength_nm);
+                shares[i] *= (at - other) / (inverse_square(geometry[i].wavelength_nm) - other);
+            }
+    return shares;
+}
+
+FlareScene flare_scene(const Prescription& lens, const Spectrum& spectrum, int spectral_samples,
+                       unsigned threads) {
+    const auto samples = sample(spectrum, spectral_samples);
+    std::vector<double> weight_nm;
+    for (const SpectralSample& s : samples) weight_nm.push_back(s.wavelength_nm);
+    const bool gray = samples.size() == 1;
+    std::vector<OpticalSystem> geometry =
+        compiled(lens, gray ? weight_nm : geometry_wavelengths_nm());
+    const std::size_t main = geometry.size() / 2;
+    std::vector<GhostPath> ghosts = two_reflection_ghosts(geometry[main]);
+    return {.spectrum = spectrum,
+            .samples = samples,
+            .colors = sample_colors(spectrum, samples),
+            .geometry = std::move(geometry),
+            .main = main,
+            .films = FilmTables(compiled(lens, weight_nm), threads),
+            .ghosts = std::move(ghosts)};
+}
+
+}  // namespace ghostlight

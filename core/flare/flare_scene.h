@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/flare/film_tables.h"
+#include "core/flare/spectrum.h"
+#include "core/ghosts/ghost_path.h"
+#include "core/optics/optical_system.h"
+#include "core/optics/prescription.h"
+
+namespace ghostlight {
+
+/// A lens and the spectrum of its light, compiled for pictures: what does not change while the
+/// light moves.
+struct FlareScene {
+    Spectrum spectrum;
+    std::vector<SpectralSample> samples;  ///< where weights are evaluated
+    std::vector<Rgb> colors;              ///< of the samples
+    /// Where the geometry is traced: one wavelength, or three Chebyshev nodes in 1/λ² between
+    /// which positions are interpolated. `main` of them stands for all where colour does not
+    /// matter.
+    std::vector<OpticalSystem> geometry;
+    std::size_t main = 0;
+    FilmTables films;
+    std::vector<GhostPath> ghosts;
+
+    bool is_gray() const { return samples.size() == 1; }
+    const OpticalSystem& system() const { return geometry[main]; }
+    /// Shares of the geometry nodes' positions in the position at a wavelength.
+    std::vector<double> interpolation(double wavelength_nm) const;
+};
+
+/// Compiles. Throws Error like compile().
+FlareScene flare_scene(const Prescription& lens, const Spectrum& spectrum,
+                       int spectral_samples = 16, unsigned threads = 0);
+
+}  // namespace ghostlight

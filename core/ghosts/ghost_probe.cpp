@@ -1,0 +1,105 @@
+#include "core/ghosts/ghost_probe.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/ghosts/cell_judgement.h"
+
+namespace ghostlight {
+namespace {
+
+constexpr SearchEffort effort{12, 1, 40, 600};  // as find_pupil's quick one
+constexpr int most_zooms = 24;
+constexpr int most_cells = 96;          ///< of a look: then cells by themselves are cheaper
+constexpr std::size_t few_passing = 8;  ///< of the last grid's nodes: look more closely
+
+PupilBox symmetric(PupilBox box) {
+    box.u1_mm = std::max(std::abs(box.u0_mm), std::abs(box.u1_mm));
+    box.u0_mm = -box.u1_mm;
+    return box;
+}
+
+std::size_t passing_nodes(const MirrorGrid& grid, double stop_radius_mm) {
+    // All but the middle column stand for two nodes.
+    const std::size_t half = passing_rays(grid.half, stop_radius_mm);
+    std::size_t middle = 0;
+    const auto r2 = static_cast<float>(stop_radius_mm * stop_radius_mm);
+    const Bundle<float>& rays = grid.half;
+    for (int j = 0; j < grid.side(); ++j) {
+        const std::size_t k = grid.of_node(grid.cells / 2, j);
+        bool passes = rays.margin[k] >= 0.0F && rays.r_rel[k] <= 1.0F;
+        for (std::size_t s = 0; s < static_cast<std::size_t>(rays.stop_crossings); ++s)
+            passes = passes && rays.stop_u_mm[s][k] * rays.stop_u_mm[s][k] +
+                                       rays.stop_v_mm[s][k] * rays.stop_v_mm[s][k] <=
+                                   r2;
+        middle += passes ? 1 : 0;
+    }
+    return 2 * half - middle;
+}
+
+}  // namespace
+
+GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path,
+                       const BeamFrame& frame, const PupilBox& entrance, int cells) {
+    const double stop_radius_mm = system.stop_mask.semi_diameter_mm;
+    GhostProbe probe;
+    MirrorGrid& grid = probe.grid;
+    grid.box = symmetric(entrance);
+    const double first_cell_mm = 2.0 * grid.box.u1_mm / cells;
+    // The first look is a finer one: beside failing rays a coarse cell says nothing.
+    grid.cells = 2 * cells;
+    for (int zoom = 0; zoom < most_zooms; ++zoom) {
+        trace_mirrored(path, frame, Weights::none, grid);
+        probe.rays += grid.half.size();
+        const int across = grid.cells;
+        // How often the first cells have been halved, for what the judgement allows within one.
+        const double cell_mm =
+            std::max(2.0 * grid.box.u1_mm, grid.box.v1_mm - grid.box.v0_mm) / across;
+        const int level = static_cast<int>(std::lround(std::log2(first_cell_mm / cell_mm)));
+        Range i_range, j_range;
+        for (int j = 0; j < across; ++j)
+            for (int i = across / 2; i < across; ++i) {
+                const std::array<std::size_t, 4> corners = {
+                    grid.of_node(i, j), grid.of_node(i + 1, j), grid.of_node(i, j + 1),
+                    grid.of_node(i + 1, j + 1)};
+                if (!may_pass(grid.half, corners, level, stop_radius_mm, effort)) continue;
+                i_range.add(i + 1.0 - across / 2);
+                j_range.add(j);
+                j_range.add(j + 1.0);
+            }
+        if (!(i_range.high > 0.0)) {
+            probe.empty = true;
+            return probe;
+        }
+        const double v0 = grid.box.v0_mm, height = grid.box.v1_mm - v0;
+        grid.box.u1_mm *= i_range.high / (across / 2);
+        grid.box.u0_mm = -grid.box.u1_mm;
+        grid.box.v0_mm = v0 + height * j_range.low / across;
+        grid.box.v1_mm = v0 + height * j_range.high / across;
+        if (passing_nodes(grid, stop_radius_mm) >= effort.enough_passing) break;
+        // Each look halves the cells at least; where the box hardly shrinks it takes more of them.
+        const double kept = std::max(2.0 * i_range.high, j_range.high - j_range.low);
+        grid.cells = std::max(cells, 2 * static_cast<int>(std::ceil(kept)));
+        if (grid.cells > most_cells) break;
+    }
+    grid.cells = cells;
+    trace_mirrored(path, frame, Weights::none, grid);
+    probe.rays += grid.half.size();
+    probe.passing = passing_nodes(grid, stop_radius_mm);
+    if (probe.passing < few_passing) {
+        const Pupil pupil = find_pupil(system, path, frame, PupilSearch::quick);
+        probe.rays += pupil.rays;
+        if (pupil.empty()) {
+            probe.empty = true;
+            return probe;
+        }
+        grid.box = symmetric(pupil.box);
+    }
+    grid.half.keep_cosines = true;
+    trace_mirrored(path, frame, Weights::polarised, grid);
+    probe.rays += grid.half.size();
+    probe.passing = passing_nodes(grid, stop_radius_mm);
+    return probe;
+}
+
+}  // namespace ghostlight

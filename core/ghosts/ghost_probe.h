@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/ghosts/mirror_grid.h"
+
+namespace ghostlight {
+
+/// Where a path's light enters, and a coarse grid of rays over it.
+struct GhostProbe {
+    MirrorGrid grid;          ///< geometry, polarised and averaged weights, cosines
+    std::size_t passing = 0;  ///< nodes of the full grid that pass, the stop taken as round
+    std::size_t rays = 0;     ///< traced, the search included
+    bool empty = false;       ///< nothing was found
+};
+
+/// Looks for the part of the entrance that reaches the sensor along `path`, zooming in on the box
+/// of the cells that may pass until it shrinks no further; where that does not settle (islands,
+/// crescents), by find_pupil's cells. The beam must lie in the y–z plane. Tables are not needed:
+/// a search takes a few hundred rays.
+GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path,
+                       const BeamFrame& frame, const PupilBox& entrance, int cells);
+
+}  // namespace ghostlight
