@@ -6,10 +6,10 @@
 #include <cmath>
 #include <map>
 
+#include "core/io/glass_library.h"
 #include "core/io/import_notes.h"
 #include "core/io/import_steps.h"
 #include "core/io/json_value.h"
-#include "core/io/medium_json.h"
 #include "core/optics/optical_system.h"
 #include "core/units.h"
 
@@ -34,15 +34,16 @@ std::optional<OpticalSystem> compiled(Prescription lens) {
 ExportedGlass exported_glass(const Medium& medium) {
     ExportedGlass glass;
     try {
-        const Medium* known = medium.name.empty() ? nullptr : find_glass(medium.name);
-        glass.catalogued = known != nullptr && *known == medium;
+        const auto known = medium.name.empty() ? std::nullopt : find_glass(medium.name, {});
+        glass.catalogued = known && known->glass.medium == medium;
+        if (glass.catalogued) glass.catalog = known->glass.catalog;
     } catch (const Error&) {
         // Without a catalogue at hand the numbers have to do.
     }
     if (const auto* model = std::get_if<ModelGlass>(&medium.dispersion))
-        return {glass.catalogued, true, model->nd, model->vd};
+        return {glass.catalogued, true, model->nd, model->vd, glass.catalog};
     if (const auto* constant = std::get_if<ConstantIndex>(&medium.dispersion))
-        return {glass.catalogued, true, constant->n, std::nullopt};
+        return {glass.catalogued, true, constant->n, std::nullopt, glass.catalog};
     try {
         glass.nd = refractive_index(medium, d_line_nm);
         const double vd = abbe_number(medium);

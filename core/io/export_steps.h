@@ -16,6 +16,7 @@ struct ExportedGlass {
     bool catalogued = false;  ///< the name alone says it all
     bool model = false;       ///< nd and Vd (or a constant index) say it all
     std::optional<double> nd, vd;
+    std::string catalog;  ///< that has it
 };
 ExportedGlass exported_glass(const Medium& medium);
 

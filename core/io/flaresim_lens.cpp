@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/io/flaresim_write.h"
 #include "core/io/import_notes.h"
 #include "core/io/listed_surface.h"
 #include "core/io/stated_glass.h"
@@ -96,6 +97,7 @@ ImportedLens import_flaresim_lens(const FormatSource& source) {
     std::string remarks;
     bool in_surfaces = false;
     bool any_coating = false;
+    bool are_radii = false;
     std::size_t surfaces_line = 0;
     for (const TextLine& each : text_lines(source.text)) {
         const Place place{file, fmt::format("line {}", each.number)};
@@ -105,7 +107,9 @@ ImportedLens import_flaresim_lens(const FormatSource& source) {
             constexpr std::size_t longest = 2000;
             const std::string remark =
                 hash == each.text.npos ? "" : clipped(trimmed(each.text.substr(hash + 1)), 200);
-            if (!in_surfaces && !remark.empty() && remarks.size() < longest)
+            if (remark == flaresim_radii_remark)
+                are_radii = true;
+            else if (!in_surfaces && !remark.empty() && remarks.size() < longest)
                 remarks += (remarks.empty() ? "" : "; ") + remark;
         } else if (!in_surfaces) {
             if (same_word(line, "surfaces:")) {
@@ -140,6 +144,7 @@ ImportedLens import_flaresim_lens(const FormatSource& source) {
     const double last_mm = result.lens.surfaces.back().thickness_mm;
     place_sensor(result, last_mm > 0.0 ? std::optional(last_mm) : std::nullopt, file);
 
+    if (are_radii) return result;
     auto f_number = f_number_in(result.lens.name);
     if (!f_number) f_number = f_number_in(remarks);
     if (f_number) {

@@ -62,7 +62,8 @@ std::string write_flaresim_lens(const Prescription& lens, Notes& notes) {
     text += "name: " + one_line(lens.name) + "\n";
     if (const auto order = first_order_of(lens); order && std::isfinite(order->efl_mm))
         text += "focal_length: " + exact(order->efl_mm) + "\n";
-    text += "\n# radius thickness index abbe semi_aperture coating\nsurfaces:\n";
+    text += fmt::format("# {}\n", flaresim_radii_remark);
+    text += "\nsurfaces:\n# radius thickness index abbe semi_aperture coating\n";
     const double stop_mm = working_stop_radius_mm(lens);
     for (std::size_t row = 0; row < lens.surfaces.size(); ++row) {
         const Surface& surface = lens.surfaces[row];

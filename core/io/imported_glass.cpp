@@ -6,10 +6,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/io/glass_library.h"
 #include "core/io/import_notes.h"
 #include "core/io/json_value.h"
-#include "core/io/lens_file.h"
-#include "core/io/medium_json.h"
 #include "core/io/text_lines.h"
 #include "core/units.h"
 
@@ -28,15 +27,6 @@ std::string letters_and_digits(std::string_view name) {
     for (const char c : upper_case(name))
         if ((c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9')) plain += c;
     return plain;
-}
-
-const Medium* catalogued(std::string_view name) {
-    if (const Medium* exact = find_glass(name)) return exact;
-    const std::string plain = letters_and_digits(name);
-    if (plain.empty()) return nullptr;
-    for (const Medium& glass : bundled_glasses().glasses)
-        if (letters_and_digits(glass.name) == plain) return &glass;
-    return nullptr;
 }
 
 /// How many single letters have to change, come or go.
@@ -58,13 +48,40 @@ std::string nearest_by_name(std::string_view name) {
     constexpr std::size_t longest = 40;
     const std::string wanted = letters_and_digits(name.substr(0, longest));
     std::vector<std::pair<std::size_t, std::string>> found;
-    for (const Medium& glass : bundled_glasses().glasses)
-        found.emplace_back(edits_between(wanted, letters_and_digits(glass.name)), glass.name);
+    const auto library = glass_library();
+    for (const GlassFile& catalog : library->catalogs)
+        for (const CataloguedGlass& glass : catalog.glasses)
+            found.emplace_back(edits_between(wanted, letters_and_digits(glass.medium.name)),
+                               glass.medium.name);
     std::ranges::stable_sort(found, {}, &std::pair<std::size_t, std::string>::first);
     std::string text;
     for (std::size_t i = 0; i < std::min(offered, found.size()); ++i)
         text += (i > 0 ? ", " : "") + found[i].second;
     return text;
+}
+
+/// That it was found, where, and what speaks against it.
+void note_match(const GlassMatch& match, const NamedGlass& named, bool real, Notes& notes) {
+    const std::string label = match.glass.medium.name + " (" + match.glass.catalog + ")";
+    const auto nd = known_nd(match.glass);
+    if (real && nd && std::abs(*nd - *named.nd) > same_nd)
+        note_noticed(notes, named.where,
+                     fmt::format("{} has nd {:.6g} in the catalogue, but {} in the file", label,
+                                 *nd, format_number(*named.nd)),
+                     true, "check which glass is meant; the catalogue's is used");
+    else
+        note_read(notes, named.where, "glass " + label);
+    for (const CataloguedGlass& other : match.homonyms)
+        note_noticed(notes, named.where,
+                     fmt::format("{} has a glass {} too, with nd {:.6g}", other.catalog,
+                                 other.medium.name, known_nd(other).value_or(0.0)),
+                     true, "check which catalogue is meant");
+    if (match.glass.nd && match.glass.listed_nd &&
+        std::abs(*match.glass.nd - *match.glass.listed_nd) > index_agreement)
+        note_noticed(notes, named.where,
+                     fmt::format("the formula of {} gives nd {:.6g}, its catalogue lists {:.6g}",
+                                 label, *match.glass.nd, *match.glass.listed_nd),
+                     true, "check the catalogue's coefficients");
 }
 
 }  // namespace
@@ -86,18 +103,11 @@ Medium numbered_glass(const std::string& label, double nd, std::optional<double>
 
 Medium resolve_glass(const NamedGlass& named, Notes& notes) {
     const bool real = is_real_glass(named.nd, named.vd);
-    if (const Medium* known = catalogued(named.name)) {
-        const double nd = refractive_index(*known, d_line_nm);
-        if (real && std::abs(nd - *named.nd) > same_nd)
-            note_noticed(notes, named.where,
-                         fmt::format("{} has nd {:.6g} in the catalogue, but {} in the file",
-                                     known->name, nd, format_number(*named.nd)),
-                         true, "check which glass is meant; the catalogue's is used");
-        else
-            note_read(notes, named.where, fmt::format("glass {}", known->name));
-        return *known;
+    if (const auto match = find_glass(named.name, named.catalogs)) {
+        note_match(*match, named, real, notes);
+        return match->glass.medium;
     }
-    std::string where_looked = "the bundled catalogue";
+    std::string where_looked = "the catalogues at hand";
     if (!named.catalogs.empty()) {
         where_looked += " (the file names";
         for (const std::string& catalog : named.catalogs) where_looked += " " + catalog;
@@ -119,27 +129,21 @@ Medium resolve_glass(const NamedGlass& named, Notes& notes) {
     return {named.name, UnknownGlass{why}};
 }
 
-std::optional<GlassCode> coded_glass(std::string_view text) {
+std::optional<ModelGlass> coded_glass(std::string_view text) {
+    if (const auto code = glass_code(text)) return code;
     const auto digits = [](std::string_view part) {
-        return !part.empty() &&
+        return part.size() >= 3 && part.size() <= 16 &&
                std::ranges::all_of(part, [](char c) { return c >= '0' && c <= '9'; });
     };
     const std::size_t point = text.find('.');
-    std::string_view index = text.substr(0, point);
-    std::string_view abbe = point == text.npos ? std::string_view{} : text.substr(point + 1);
-    if (point == text.npos && text.size() == 6) {
-        index = text.substr(0, 3);
-        abbe = text.substr(3);
-    }
-    if (!digits(index) || !digits(abbe) || index.size() < 3 || abbe.size() < 3 ||
-        index.size() > 15 || abbe.size() > 15)
-        return std::nullopt;
-    // 517 is 1.517, 642 is 64.2; more digits are further decimals.
+    if (point == text.npos) return std::nullopt;
+    const std::string_view index = text.substr(0, point), abbe = text.substr(point + 1);
+    if (!digits(index) || !digits(abbe)) return std::nullopt;
     const auto nd = parse_number("1." + std::string(index));
     const auto vd =
         parse_number(std::string(abbe.substr(0, 2)) + "." + std::string(abbe.substr(2)));
     if (!nd || !vd || !(*vd > 0.0)) return std::nullopt;
-    return GlassCode{*nd, *vd};
+    return ModelGlass{*nd, *vd};
 }
 
 }  // namespace ghostlight

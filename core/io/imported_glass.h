@@ -31,10 +31,8 @@ Medium numbered_glass(const std::string& label, double nd, std::optional<double>
 /// Real numbers, not what programs write where they know none: 0/0, 1/0, 1.5/40.
 bool is_real_glass(std::optional<double> nd, std::optional<double> vd);
 
-/// A six-digit code, as "517642", "517.642" or "516800.641700": nd and Vd. Nothing for other text.
-struct GlassCode {
-    double nd = 1.0, vd = 0.0;
-};
-std::optional<GlassCode> coded_glass(std::string_view text);
+/// A glass code of any number of digits: "517642", "517.642", "516800.641700"; six digits as
+/// glass_code() takes them. Nothing for other text.
+std::optional<ModelGlass> coded_glass(std::string_view text);
 
 }  // namespace ghostlight

@@ -46,6 +46,7 @@ class Completion {
                          .expected = "at least one surface"});
         imported_.surfaces.resize(lens_.surfaces.size());
         settle_order(imported_, file_);
+        drop_impossible_configurations();
         give_provisional_sizes();
         settle_stop();
         lens_.surfaces.back().thickness_mm =
@@ -73,6 +74,19 @@ class Completion {
     bool is_stated(std::size_t row) const {
         const auto& stated = imported_.surfaces[row].semi_diameter_mm;
         return stated && *stated > 0.0;
+    }
+
+    void drop_impossible_configurations() {
+        std::erase_if(lens_.configurations, [this](const Configuration& each) {
+            const auto bad = std::ranges::find_if(
+                each.thickness_mm, [](const auto& entry) { return !(entry.second >= 0.0); });
+            if (bad == each.thickness_mm.end()) return false;
+            note(Severity::warning, fmt::format("configuration '{}'", each.name),
+                 fmt::format("its thickness behind surface {} is {} mm: left out", bad->first + 1,
+                             format_number(bad->second)),
+                 Fate::left_out, true, "check the file's configurations and solves");
+            return true;
+        });
     }
 
     void give_provisional_sizes() {

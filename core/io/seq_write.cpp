@@ -74,7 +74,8 @@ std::optional<std::string> decimals(double value, std::size_t least) {
 
 /// "516800.641700" for a model glass; nothing where the code cannot hold it.
 std::optional<std::string> code_of(const ModelGlass& glass) {
-    if (!(glass.nd >= 1.0 && glass.nd < 2.0) || !(glass.vd >= 10.0 && glass.vd < 100.0))
+    // A code below 100 means an nd of 2 and more.
+    if (!(glass.nd >= 1.1 && glass.nd < 2.0) || !(glass.vd >= 10.0 && glass.vd < 100.0))
         return std::nullopt;
     const auto index = decimals(glass.nd, 3), abbe = decimals(glass.vd, 1);
     if (!index || !abbe) return std::nullopt;
@@ -92,7 +93,10 @@ std::string glass_word(const Medium& medium, std::size_t number, PrivateTable& t
                        Notes& notes) {
     if (is_air(medium)) return {};
     const ExportedGlass glass = exported_glass(medium);
-    if (glass.catalogued && !glass.model) return letters_and_digits(medium.name);
+    if (glass.catalogued && !glass.model) {
+        const std::string name = letters_and_digits(medium.name);
+        return glass.catalog.empty() ? name : name + "_" + letters_and_digits(glass.catalog);
+    }
     if (const auto* model = std::get_if<ModelGlass>(&medium.dispersion))
         if (const auto code = code_of(*model)) {
             if (!medium.name.empty())

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/io/coating_dat.h"
 #include "core/io/import_notes.h"
 #include "core/io/imported_fields.h"
 #include "core/io/imported_glass.h"
@@ -49,11 +50,11 @@ class ZmxImport {
         const std::size_t rows = zmx_.surfaces.size() - 2;
         imported_.lens.surfaces.resize(rows);
         imported_.surfaces.resize(rows);
+        read_waves();
         find_last_glass();
         for (std::size_t row = 0; row < rows; ++row) read_diameter(row);
         for (std::size_t row = 0; row < rows; ++row) read_row(row);
         read_stop();
-        read_waves();
         read_image_distance();
         read_environment();
         read_aperture();
@@ -121,12 +122,43 @@ class ZmxImport {
         made.comment = clipped(from.comment, 300);
         if (from.glass) made.medium_after = medium(*from.glass, row);
         set_zmx_shape(imported_, row, from, mm_, row < last_lens_row_, file_);
-        if (!from.coating.empty())
-            note_left_out(notes(), from.coating_where,
-                          fmt::format("surface {} has the coating {}, which is defined in a "
-                                      "coating file: taken as uncoated",
-                                      row + 1, in_quotes(from.coating)),
-                          true, "choose the coating, or give a COATING.DAT");
+        if (!from.coating.empty()) made.coating = coating(from, row);
+    }
+
+    /// By name: of the lens's coating file, else of the coating library.
+    Coating coating(const ZmxSurface& from, std::size_t row) {
+        const std::string label =
+            fmt::format("surface {}: coating {}", row + 1, in_quotes(from.coating));
+        std::string why = "neither the coating library nor a coating file beside the lens has it";
+        try {
+            if (auto found = resolve_coating(from.coating, coating_file(),
+                                             primary_nm_.value_or(d_line_nm))) {
+                note_read(notes(), from.coating_where, label + ": " + found->origin);
+                for (Note& each : found->notes) {
+                    if (each.where.empty()) each.where = from.coating_where;
+                    notes().push_back(std::move(each));
+                }
+                return std::move(found->coating);
+            }
+        } catch (const Error& error) {
+            why = error.what();
+        }
+        note_left_out(notes(), from.coating_where,
+                      fmt::format("{}: taken as uncoated ({})", label, why), true,
+                      fmt::format("choose the coating, or put {} beside the lens",
+                                  zmx_.coating_file.empty() ? "COATING.DAT" : zmx_.coating_file));
+        return Uncoated{};
+    }
+
+    /// Read once; null when there is none.
+    const CoatingFile* coating_file() {
+        if (!looked_for_coatings_) {
+            looked_for_coatings_ = true;
+            const std::string name = zmx_.coating_file.empty() ? "COATING.DAT" : zmx_.coating_file;
+            if (const auto found = find_coating_file(file_, name))
+                coating_file_ = read_coating_file(*found);
+        }
+        return coating_file_ ? &*coating_file_ : nullptr;
     }
 
     Medium medium(const ZmxGlass& glass, std::size_t row) {
@@ -501,6 +533,8 @@ class ZmxImport {
     bool is_far_ = true, solve_said_ = false;
     std::size_t last_lens_row_ = 0;
     std::optional<double> primary_nm_;
+    std::optional<CoatingFile> coating_file_;
+    bool looked_for_coatings_ = false;
     std::string automatic_;
 };
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <unordered_set>
 
 #include "core/io/import_notes.h"
 #include "core/io/text_lines.h"
@@ -14,16 +14,16 @@ namespace {
 
 /// Words that say nothing about where light goes in the lens as it stands: the program's settings,
 /// drawing, optimisation, tolerances, solves whose result is in the file.
-constexpr std::array bookkeeping = {
+const std::unordered_set<std::string_view> bookkeeping = {
     "PFIL", "LANG", "GFAC", "RAIM", "PUSH", "SDMA", "ROPD", "PICB", "POLS", "GLRS",
     "GSTD", "NSCD", "TOL",  "FWGN", "FWGT", "WWGT", "WWGN", "HIDE", "MIRR", "SLAB",
-    "POPS", "VDSZ", "VPAR", "VCUR", "PZUP", "MOFF", "COFN", "FCOM", "BLNK", "SCOL",
-    "RSCE", "RWRE", "OMMA", "HYPR", "FIMP", "COCO", "VANN", "VCON", "CGTT", "PPAR",
-    "CCUR", "DMFS", "MEMA", "VXDA", "USAP", "PARX", "BBND", "RTOL", "TOLS", "GRPH",
+    "POPS", "VDSZ", "VPAR", "VCUR", "PZUP", "MOFF", "FCOM", "BLNK", "SCOL", "RSCE",
+    "RWRE", "OMMA", "HYPR", "FIMP", "COCO", "VANN", "VCON", "CGTT", "PPAR", "CCUR",
+    "DMFS", "MEMA", "VXDA", "USAP", "PARX", "BBND", "RTOL", "TOLS", "GRPH",
 };
 
 /// Operands of the multi-configuration editor.
-constexpr std::array configuration_words = {
+const std::unordered_set<std::string_view> configuration_words = {
     "THIC", "CRVT", "GLSS", "CONN", "PRAM", "PAR1", "PAR2", "PAR3", "PAR4", "PAR5", "PAR6", "PAR7",
     "PAR8", "EDVA", "APER", "YFIE", "XFIE", "FTYP", "WAVE", "WLWT", "FLWT", "FVCY", "FVCX", "FVDY",
     "FVDX", "FVAN", "LTTL", "SDIA", "PRWV", "STPS", "IGNR", "IGNM", "MOFF", "COTN", "TEMP", "PRES",
@@ -56,7 +56,7 @@ class ZmxReader {
             if (word == "SURF") {
                 start_surface();
             } else if (!surface_record(word) && !system_record(word) && !operand(word)) {
-                if (std::ranges::find(bookkeeping, word) != bookkeeping.end())
+                if (bookkeeping.contains(word))
                     ++skipped_[word];
                 else
                     unused_.add(word, place_.where);
@@ -140,7 +140,8 @@ class ZmxReader {
         } else if (word == "STOP") {
             surface.stop = true;
         } else if (word == "DIAM") {
-            surface.diameter = ZmxDiameter{number(1, "a semi-diameter"), maybe(2) == 1.0};
+            surface.diameter =
+                ZmxDiameter{number(1, "a semi-diameter"), maybe(2).value_or(0.0) != 0.0};
         } else if (word == "GLAS") {
             read_glass(surface);
         } else if (word == "PARM" || word == "XDAT") {
@@ -240,6 +241,12 @@ class ZmxReader {
             file_.primary_wave = maybe_whole(1);
         } else if (word == "GCAT") {
             for (std::size_t i = 1; i < words_.size(); ++i) file_.catalogs.emplace_back(words_[i]);
+        } else if (word == "COFN") {
+            // COFN COATING.DAT …, or COFN QF "COATING.DAT" … with names in quotes.
+            if (words_.size() > 1 && words_[1] != "QF")
+                file_.coating_file = std::string(words_[1]);
+            else if (words_.size() > 2)
+                file_.coating_file = unquoted(rest_);
         } else if (word == "ENVD") {
             file_.temperature_c = maybe(1).value_or(20.0);
             file_.pressure_atm = maybe(2).value_or(1.0);
@@ -270,7 +277,7 @@ class ZmxReader {
 
     /// WORD target configuration value …; text values are in quotes.
     bool operand(const std::string& word) {
-        if (std::ranges::find(configuration_words, word) == configuration_words.end()) return false;
+        if (!configuration_words.contains(word)) return false;
         const auto target = maybe_whole(1), configuration = maybe_whole(2);
         if (!target || !configuration) return false;
         ZmxOperand read{word, place_.where, *target, *configuration, maybe(3), {}};

@@ -60,6 +60,7 @@ struct ZmxOperand {
 struct ZmxFile {
     std::string mode = "SEQ", mode_where, name, unit = "MM", unit_where, version;
     std::vector<std::string> notes, catalogs;
+    std::string coating_file;  ///< COFN
     enum class Aperture { none, entrance_pupil, f_number, object_na, stop_size };
     Aperture aperture = Aperture::none;
     double aperture_value = 0.0;
