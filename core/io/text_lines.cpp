@@ -60,7 +60,10 @@ bool same_word(std::string_view a, std::string_view b) {
 
 std::optional<double> parse_number(std::string_view word) {
     constexpr std::size_t longest = 64;
-    if (word.starts_with('+')) word.remove_prefix(1);
+    if (word.starts_with('+')) {
+        word.remove_prefix(1);
+        if (word.starts_with('-')) return std::nullopt;
+    }
     if (word.empty() || word.size() > longest) return std::nullopt;
     char digits[longest];
     std::ranges::transform(word, digits, [](char c) { return c == 'D' || c == 'd' ? 'e' : c; });
