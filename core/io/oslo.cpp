@@ -110,24 +110,39 @@ struct MarginalRay {
     std::vector<double> heights = {};
 };
 
-double index_of(const Medium& medium, double wavelength_nm) {
+/// Nothing for a glass that nobody knows; the report has it already.
+std::optional<double> index_of(const Medium& medium, double wavelength_nm) {
     try {
         return refractive_index(medium, wavelength_nm);
     } catch (const Error&) {
-        return 1.5;  // a glass that nobody knows; the report has it
+        return std::nullopt;
     }
+}
+
+void require_ray(bool known, bool has_beam, double wanted, const OsloSurface& surface) {
+    if (!known)
+        surface.place.refuse("a solve needs the index of a glass that nobody knows", "PY or PU",
+                             "the solved number itself, or a known glass");
+    if (!has_beam && wanted != 0.0)
+        surface.place.refuse("a solve needs the height of the entrance beam", "no EBR",
+                             "EBR, or the solved number itself");
 }
 
 void solve(OsloText& text, std::span<const Medium> media, MarginalRay& ray, Notes& notes) {
     const double wavelength_nm =
         text.wavelengths_um.empty() ? d_line_nm : nm_from_um(text.wavelengths_um[0]);
+    const bool has_beam = text.beam_radius.has_value();
     double before = 1.0;
+    bool known = true;
     ray.heights.assign(text.surfaces.size(), 0.0);
     for (std::size_t i = 1; i + 1 < text.surfaces.size(); ++i) {
         OsloSurface& surface = text.surfaces[i];
-        const double after = index_of(media[i], wavelength_nm);
-        ray.heights[i] = ray.height;
+        const auto index = index_of(media[i], wavelength_nm);
+        if (known) ray.heights[i] = ray.height;
+        known = known && index;
+        const double after = index.value_or(1.0);
         if (surface.slope_solve && !surface.radius && !surface.curvature) {
+            require_ray(known, has_beam, *surface.slope_solve, surface);
             const double power = ray.height * (after - before);
             if (power == 0.0)
                 surface.place.refuse("a curvature solve that has no answer", "PU",
@@ -143,6 +158,7 @@ void solve(OsloText& text, std::span<const Medium> media, MarginalRay& ray, Note
         if (square != surface.terms.end()) c += 2.0 * square->second;
         ray.slope = (before * ray.slope - ray.height * c * (after - before)) / after;
         if (surface.height_solve && !surface.thickness && i + 2 < text.surfaces.size()) {
+            require_ray(known, has_beam, *surface.height_solve, surface);
             if (ray.slope == 0.0)
                 surface.place.refuse("a thickness solve that has no answer", "PY",
                                      "a ray that is not parallel to the axis");

@@ -117,6 +117,19 @@ TEST(Oslo, SolvesFollowTheMarginalRay) {
 }
 
 /// Counted from the first surface, or back from this one; the number behind is added.
+/// A solve is never worked out from a guess.
+TEST(Oslo, SolvesThatLackTheirRayAreRefused) {
+    const auto lens = [](const char* system, const char* glass, const char* solve) {
+        return std::string("LEN NEW \"x\" 1 3\n") + system + "\nTH 1e20\nNXT\nGLA " + glass +
+               "\nRD 50\n" + solve + "\nNXT\nAIR\nRD -50\nTH 20\nNXT\nEND 3\n";
+    };
+    EXPECT_NO_THROW(import(lens("EBR 5", "1.5", "PY 4")));
+    EXPECT_THAT(error_of([&] { import(lens("", "1.5", "PY 4")); }).problem,
+                testing::HasSubstr("entrance beam"));
+    EXPECT_THAT(error_of([&] { import(lens("EBR 5", "NOSUCH17", "PY 4")); }).problem,
+                testing::HasSubstr("nobody knows"));
+}
+
 TEST(Oslo, PickupsTakeAnEarlierSurfacesValue) {
     const ImportedLens lens = import(
         "LEN NEW \"x\" 1 4\nEBR 1\nTH 1e20\nNXT\nGLA 1.5\nRD 50\nCC -1\nTH 4\nNXT\nAIR\nPK CVM 1\n"
