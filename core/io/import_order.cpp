@@ -157,6 +157,9 @@ void move_stop(ImportedLens& imported, const std::string& file) {
     imported.lens.surfaces[at].thickness_mm = image->distance_mm;
     if (is_last && imported.sensor_distance_mm) imported.sensor_distance_mm = moved.thickness_mm;
     if (named.semi_diameter_mm) *named.semi_diameter_mm *= image->magnification;
+    if (auto& width = imported.lens.stop.semi_diameter_mm) *width *= image->magnification;
+    for (Configuration& each : imported.lens.configurations)
+        if (each.stop_semi_diameter_mm) *each.stop_semi_diameter_mm *= image->magnification;
     imported.lens.surfaces.insert(imported.lens.surfaces.begin() + offset(at) + 1, moved);
     imported.surfaces.insert(imported.surfaces.begin() + offset(at) + 1, named);
     for (Configuration& each : imported.lens.configurations) {

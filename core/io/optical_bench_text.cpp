@@ -96,6 +96,8 @@ void Reader::read_constant(const std::vector<std::string_view>& row, const Place
 }
 
 void Reader::read_variable(const std::vector<std::string_view>& row, const Place& place) {
+    if (text.variables.size() >= 2000)
+        place.refuse("too many variable distances", "a further row", "at most 2000");
     BenchVariable variable{place, {}};
     if (row.size() > most_positions)
         place.refuse("too many positions", fmt::format("{}", row.size() - 1), "at most 200");
@@ -120,6 +122,8 @@ void Reader::read_surface(std::string_view line, const Place& place) {
     if (row.size() < 3) row = cells_of_words(words(line));
     if (row.size() < 3)
         place.refuse("the row is too short", fmt::format("{} cells", row.size()), row_expected);
+    if (text.surfaces.size() >= 1000)
+        place.refuse("the lens has too many surfaces", "a further row", "at most 1000");
     BenchSurface surface;
     surface.place = place;
     surface.id = row[0];
@@ -143,6 +147,8 @@ void Reader::read_asphere(std::string_view line, const Place& place) {
     constexpr std::string_view expected = "id, radius, k and coefficients between tabs";
     if (row.size() < 2)
         place.refuse("the row is too short", fmt::format("{} cells", row.size()), expected);
+    if (text.aspheres.size() >= 1000)
+        place.refuse("too many aspheres", "a further row", "at most one for each surface");
     BenchAsphere asphere;
     asphere.place = place;
     asphere.id = row[0];

@@ -53,6 +53,26 @@ Medium model_glass(const std::string& name, std::span<const double> wavelengths_
     return medium_of({.name = {}, .nd = nd, .vd = vd}, place, notes);
 }
 
+/// O_PBH1, H_LAF2: a letter for the maker before the name.
+Medium named_glass(const std::string& name, const Place& place, Notes& notes) {
+    Notes of_name;
+    const Medium medium = medium_of({.name = name}, place, of_name);
+    const bool has_maker = name.size() > 2 && name[1] == '_';
+    if (has_maker && std::holds_alternative<UnknownGlass>(medium.dispersion)) {
+        Notes of_rest;
+        const Medium rest = medium_of({.name = name.substr(2)}, place, of_rest);
+        if (!std::holds_alternative<UnknownGlass>(rest.dispersion)) {
+            note_converted(notes, place.where,
+                           fmt::format("glass {}: its first letter is the maker's, {} is looked up",
+                                       in_quotes(name), in_quotes(name.substr(2))));
+            notes.insert(notes.end(), of_rest.begin(), of_rest.end());
+            return rest;
+        }
+    }
+    notes.insert(notes.end(), of_name.begin(), of_name.end());
+    return medium;
+}
+
 Medium medium_of_parts(const OsloSurface& surface, Notes& notes) {
     const auto& parts = surface.glass;
     const Place& place = surface.glass_place;
@@ -66,7 +86,7 @@ Medium medium_of_parts(const OsloSurface& surface, Notes& notes) {
         else if (name.empty())
             name = clipped(parts[i], 60);
     }
-    if (!is_model && !name.empty()) return medium_of({.name = name}, place, notes);
+    if (!is_model && !name.empty()) return named_glass(name, place, notes);
     if (numbers.empty())
         place.refuse("no glass is named", in_quotes(parts[0]), "a glass or its indices");
     for (std::size_t i = 0; i < numbers.size(); ++i)
@@ -90,24 +110,39 @@ struct MarginalRay {
     std::vector<double> heights = {};
 };
 
-double index_of(const Medium& medium, double wavelength_nm) {
+/// Nothing for a glass that nobody knows; the report has it already.
+std::optional<double> index_of(const Medium& medium, double wavelength_nm) {
     try {
         return refractive_index(medium, wavelength_nm);
     } catch (const Error&) {
-        return 1.5;  // a glass that nobody knows; the report has it
+        return std::nullopt;
     }
+}
+
+void require_ray(bool known, bool has_beam, double wanted, const OsloSurface& surface) {
+    if (!known)
+        surface.place.refuse("a solve needs the index of a glass that nobody knows", "PY or PU",
+                             "the solved number itself, or a known glass");
+    if (!has_beam && wanted != 0.0)
+        surface.place.refuse("a solve needs the height of the entrance beam", "no EBR",
+                             "EBR, or the solved number itself");
 }
 
 void solve(OsloText& text, std::span<const Medium> media, MarginalRay& ray, Notes& notes) {
     const double wavelength_nm =
         text.wavelengths_um.empty() ? d_line_nm : nm_from_um(text.wavelengths_um[0]);
+    const bool has_beam = text.beam_radius.has_value();
     double before = 1.0;
+    bool known = true;
     ray.heights.assign(text.surfaces.size(), 0.0);
     for (std::size_t i = 1; i + 1 < text.surfaces.size(); ++i) {
         OsloSurface& surface = text.surfaces[i];
-        const double after = index_of(media[i], wavelength_nm);
-        ray.heights[i] = ray.height;
+        const auto index = index_of(media[i], wavelength_nm);
+        if (known) ray.heights[i] = ray.height;
+        known = known && index;
+        const double after = index.value_or(1.0);
         if (surface.slope_solve && !surface.radius && !surface.curvature) {
+            require_ray(known, has_beam, *surface.slope_solve, surface);
             const double power = ray.height * (after - before);
             if (power == 0.0)
                 surface.place.refuse("a curvature solve that has no answer", "PU",
@@ -123,6 +158,7 @@ void solve(OsloText& text, std::span<const Medium> media, MarginalRay& ray, Note
         if (square != surface.terms.end()) c += 2.0 * square->second;
         ray.slope = (before * ray.slope - ray.height * c * (after - before)) / after;
         if (surface.height_solve && !surface.thickness && i + 2 < text.surfaces.size()) {
+            require_ray(known, has_beam, *surface.height_solve, surface);
             if (ray.slope == 0.0)
                 surface.place.refuse("a thickness solve that has no answer", "PY",
                                      "a ray that is not parallel to the axis");
@@ -232,12 +268,13 @@ void check_unit(const OsloText& text, ImportedLens& result) {
 
 bool is_oslo(std::string_view text) {
     std::size_t blocks = 0;
-    for (const OsloCommand& command : oslo_commands(text.substr(0, 65536), {})) {
-        if (command.word == "LEN" && !command.parts.empty() && same_word(command.parts[0], "NEW"))
-            return true;
-        if (command.word == "NXT" && ++blocks > 1) return true;
-    }
-    return false;
+    bool begins = false;
+    for_each_oslo_command(text.substr(0, 65536), {}, [&](const OsloCommand& command) {
+        begins = begins || (command.word == "LEN" && !command.parts.empty() &&
+                            same_word(command.parts[0], "NEW"));
+        if (command.word == "NXT") ++blocks;
+    });
+    return begins || blocks > 1;
 }
 
 ImportedLens import_oslo(const FormatSource& source) {

@@ -324,8 +324,8 @@ void Reader::read(const OsloCommand& command) {
 
 }  // namespace
 
-std::vector<OsloCommand> oslo_commands(std::string_view text, const std::string& file) {
-    std::vector<OsloCommand> commands;
+void for_each_oslo_command(std::string_view text, const std::string& file,
+                           const std::function<void(const OsloCommand&)>& work) {
     for (const TextLine& line : text_lines(text)) {
         OsloCommand command{{file, fmt::format("line {}", line.number)}, {}, {}};
         std::string part;
@@ -340,7 +340,7 @@ std::vector<OsloCommand> oslo_commands(std::string_view text, const std::string&
         };
         const auto end_command = [&] {
             end_part();
-            if (!command.word.empty()) commands.push_back(command);
+            if (!command.word.empty()) work(command);
             command.word.clear();
             command.parts.clear();
         };
@@ -366,12 +366,11 @@ std::vector<OsloCommand> oslo_commands(std::string_view text, const std::string&
         }
         end_command();
     }
-    return commands;
 }
 
 OsloText read_oslo_text(std::string_view text, const std::string& file, Notes& notes) {
     Reader reader{file, notes};
-    for (const OsloCommand& command : oslo_commands(text, file)) reader.read(command);
+    for_each_oslo_command(text, file, [&](const OsloCommand& command) { reader.read(command); });
     if (!reader.begun) Place{file, {}}.refuse("not an OSLO lens", "no LEN", "LEN NEW \"name\" …");
     if (!reader.ended) {
         note_noticed(notes, {}, "the file ends without END: it may be cut short", true,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -18,8 +19,10 @@ struct OsloCommand {
     std::vector<std::string> parts;  ///< what follows; a text in quotes is one part, without them
 };
 
-/// Commands are separated by line ends and ";"; "//" begins a comment outside quotes.
-std::vector<OsloCommand> oslo_commands(std::string_view text, const std::string& file);
+/// The commands one after the other, which line ends and ";" separate; "//" begins a comment
+/// outside quotes.
+void for_each_oslo_command(std::string_view text, const std::string& file,
+                           const std::function<void(const OsloCommand&)>& work);
 
 /// What an OSLO file says of one surface, in its own units.
 struct OsloSurface {

@@ -23,7 +23,7 @@ struct Row {
 };
 
 /// "# D-GAUSS F/2 22deg HFOV": the first comment names the lens, all of them say where it is from.
-void read_comments(std::span<const TextLine> lines, Prescription& lens) {
+void read_comments(TextLines lines, Prescription& lens) {
     constexpr std::size_t longest_source = 2000;
     for (const TextLine& line : lines) {
         const std::size_t hash = line.text.find('#');
@@ -41,8 +41,7 @@ void read_comments(std::span<const TextLine> lines, Prescription& lens) {
     }
 }
 
-std::vector<Row> read_rows(std::span<const TextLine> lines, const std::string& file,
-                           ImportedLens& result) {
+std::vector<Row> read_rows(TextLines lines, const std::string& file, ImportedLens& result) {
     std::vector<Row> rows;
     std::optional<double> lone;
     Place lone_place;
@@ -58,6 +57,8 @@ std::vector<Row> read_rows(std::span<const TextLine> lines, const std::string& f
         if (row.size() != 4)
             place.refuse("not a row of a pbrt lens", fmt::format("{} numbers", row.size()),
                          row_expected);
+        if (rows.size() >= 1000)
+            place.refuse("the lens has too many surfaces", "a further row", "at most 1000");
         rows.push_back({place, place.number(row[0], "a radius in mm, 0 for the stop"),
                         place.number(row[1], "a thickness in mm"),
                         place.number(row[2], "an index, 0 for air"),

@@ -81,7 +81,9 @@ void read_stop(const JsonAt& root, ImportedLens& result) {
 
 bool is_realflare(std::string_view text) {
     const std::size_t begin = text.find_first_not_of(" \t\r\n");
-    return begin != text.npos && text[begin] == '{' && text.find("\"lens_elements\"") != text.npos;
+    return begin != text.npos && text[begin] == '{' &&
+           text.find("\"lens_elements\"") != text.npos &&
+           text.find("\"ghostlight_lens\"") == text.npos;  // which may keep fields of others
 }
 
 ImportedLens import_realflare(const FormatSource& source) {

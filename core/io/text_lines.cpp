@@ -17,16 +17,15 @@ char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + '
 
 }  // namespace
 
-std::vector<TextLine> text_lines(std::string_view text) {
-    std::vector<TextLine> lines;
-    while (!text.empty()) {
-        const std::size_t end = text.find_first_of("\r\n");
-        lines.push_back({lines.size() + 1, text.substr(0, end)});
-        if (end == text.npos) break;
-        const bool two = text[end] == '\r' && end + 1 < text.size() && text[end + 1] == '\n';
-        text.remove_prefix(end + (two ? 2 : 1));
+void TextLines::Iterator::advance() {
+    if (rest_.empty()) {
+        ended_ = true;
+        return;
     }
-    return lines;
+    const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
+    line_ = {line_.number + 1, rest_.substr(0, end)};
+    const bool two = rest_.substr(end, 2) == "\r\n";
+    rest_.remove_prefix(std::min(end + (two ? 2 : 1), rest_.size()));
 }
 
 std::vector<std::string_view> words(std::string_view text) {
@@ -61,7 +60,10 @@ bool same_word(std::string_view a, std::string_view b) {
 
 std::optional<double> parse_number(std::string_view word) {
     constexpr std::size_t longest = 64;
-    if (word.starts_with('+')) word.remove_prefix(1);
+    if (word.starts_with('+')) {
+        word.remove_prefix(1);
+        if (word.starts_with('-')) return std::nullopt;
+    }
     if (word.empty() || word.size() > longest) return std::nullopt;
     char digits[longest];
     std::ranges::transform(word, digits, [](char c) { return c == 'D' || c == 'd' ? 'e' : c; });

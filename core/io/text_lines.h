@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,8 +17,35 @@ struct TextLine {
     std::string_view text;
 };
 
-/// The lines of a text that ends them by "\n", "\r\n" or "\r".
-std::vector<TextLine> text_lines(std::string_view text);
+/// The lines of a text that ends them by "\n", "\r\n" or "\r", one after the other.
+class TextLines {
+   public:
+    class Iterator {
+       public:
+        explicit Iterator(std::string_view rest) : rest_(rest) { advance(); }
+        const TextLine& operator*() const { return line_; }
+        Iterator& operator++() {
+            advance();
+            return *this;
+        }
+        bool operator==(std::default_sentinel_t) const { return ended_; }
+
+       private:
+        void advance();
+
+        std::string_view rest_;
+        TextLine line_;
+        bool ended_ = false;
+    };
+
+    explicit TextLines(std::string_view text) : text_(text) {}
+    Iterator begin() const { return Iterator(text_); }
+    std::default_sentinel_t end() const { return {}; }
+
+   private:
+    std::string_view text_;
+};
+inline TextLines text_lines(std::string_view text) { return TextLines(text); }
 
 /// What blanks and tabs separate.
 std::vector<std::string_view> words(std::string_view text);

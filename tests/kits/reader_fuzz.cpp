@@ -9,9 +9,13 @@
 #include <typeinfo>
 
 #include "core/error.h"
+#include "core/io/agf.h"
+#include "core/io/coating_csv.h"
+#include "core/io/coating_dat.h"
 #include "core/io/formats.h"
 #include "core/io/lens_file.h"
 #include "core/io/read_text.h"
+#include "core/io/refractive_index_yaml.h"
 
 namespace ghostlight {
 namespace {
@@ -219,15 +223,15 @@ std::string bytes_of(const fs::path& file) {
 /// The bundled lenses and the test data, but for what is no lens or meant to be refused.
 std::vector<fs::path> sample_files() {
     std::vector<fs::path> files;
-    for (const fs::path folder : {GHOSTLIGHT_LENS_DIR, GHOSTLIGHT_TEST_DATA_DIR})
-        for (auto entry = fs::recursive_directory_iterator(folder);
-             entry != fs::recursive_directory_iterator(); ++entry) {
-            const std::string name = entry->path().filename().string();
-            if (entry->is_directory() &&
-                (name == "malformed" || name == "expected" || name == "glasses"))
-                entry.disable_recursion_pending();
-            if (entry->is_regular_file()) files.push_back(entry->path());
-        }
+    for (const auto& entry : fs::directory_iterator(GHOSTLIGHT_LENS_DIR))
+        if (entry.is_regular_file()) files.push_back(entry.path());
+    for (auto entry = fs::recursive_directory_iterator(GHOSTLIGHT_TEST_DATA_DIR);
+         entry != fs::recursive_directory_iterator(); ++entry) {
+        const std::string name = entry->path().filename().string();
+        if (entry->is_directory() && (name == "malformed" || name == "expected"))
+            entry.disable_recursion_pending();
+        if (entry->is_regular_file()) files.push_back(entry->path());
+    }
     std::ranges::sort(files);  // so that a number means the same file everywhere
     return files;
 }
@@ -243,8 +247,19 @@ void use(const LensFile& read, const LensFormat& format) {
     }
 }
 
-/// Readers of files that are not lenses: one line each.
-void add_other_readers(std::vector<FuzzedReader>&) {}
+/// A reader of files that are not lenses, with the samples of a folder that have its extension.
+template <typename Read>
+FuzzedReader other_reader(std::string name, std::string_view folder, std::string_view extension,
+                          const std::vector<fs::path>& files, Read read) {
+    FuzzedReader reader{std::move(name), "fuzz" + std::string(extension), {}, {}};
+    for (const fs::path& file : files)
+        if (file.parent_path().filename() == folder && file.extension() == extension)
+            reader.samples.push_back(bytes_of(file));
+    reader.read = [read](std::string_view bytes, const std::string& file) {
+        read(utf8_text(bytes), fs::path(file));
+    };
+    return reader;
+}
 
 }  // namespace
 
@@ -271,7 +286,13 @@ std::vector<FuzzedReader> fuzzed_readers() {
         };
         readers.push_back(std::move(reader));
     }
-    add_other_readers(readers);
+    readers.push_back(other_reader("AGF", "agf", ".AGF", files, agf_from_text));
+    readers.push_back(
+        other_reader("refractiveindex.info", "materials", ".yml", files, material_from_yaml));
+    readers.push_back(
+        other_reader("COATING.DAT", "coatings", ".DAT", files, coating_file_from_text));
+    readers.push_back(
+        other_reader("reflectance CSV", "coatings", ".csv", files, measured_from_csv));
     return readers;
 }
 

@@ -117,6 +117,19 @@ TEST(Oslo, SolvesFollowTheMarginalRay) {
 }
 
 /// Counted from the first surface, or back from this one; the number behind is added.
+/// A solve is never worked out from a guess.
+TEST(Oslo, SolvesThatLackTheirRayAreRefused) {
+    const auto lens = [](const char* system, const char* glass, const char* solve) {
+        return std::string("LEN NEW \"x\" 1 3\n") + system + "\nTH 1e20\nNXT\nGLA " + glass +
+               "\nRD 50\n" + solve + "\nNXT\nAIR\nRD -50\nTH 20\nNXT\nEND 3\n";
+    };
+    EXPECT_NO_THROW(import(lens("EBR 5", "1.5", "PY 4")));
+    EXPECT_THAT(error_of([&] { import(lens("", "1.5", "PY 4")); }).problem,
+                testing::HasSubstr("entrance beam"));
+    EXPECT_THAT(error_of([&] { import(lens("EBR 5", "NOSUCH17", "PY 4")); }).problem,
+                testing::HasSubstr("nobody knows"));
+}
+
 TEST(Oslo, PickupsTakeAnEarlierSurfacesValue) {
     const ImportedLens lens = import(
         "LEN NEW \"x\" 1 4\nEBR 1\nTH 1e20\nNXT\nGLA 1.5\nRD 50\nCC -1\nTH 4\nNXT\nAIR\nPK CVM 1\n"
@@ -156,14 +169,20 @@ TEST(Oslo, UnknownGlassesAreToBeMended) {
         "NXT\nEND 3\n");
     EXPECT_TRUE(
         std::holds_alternative<UnknownGlass>(lens.lens.surfaces[0].medium_after.dispersion));
+    const ImportedLens made = import(
+        "LEN NEW \"x\" 1 3\nEBR 1\nTH 1e20\nNXT\nGLA O_N-BK7\nRD 50\nTH 4\nNXT\nAIR\nRD -50\nTH "
+        "90\n"
+        "NXT\nEND 3\n");
+    EXPECT_EQ(made.lens.surfaces[0].medium_after, *bundled_glasses().find("N-BK7"));
     const Note* note = note_with(lens.notes, "NOSUCH17");
     EXPECT_EQ(note->severity, Note::Severity::error);
     EXPECT_EQ(note->where, "line 5");
 }
 
 TEST(Oslo, CommandsQuotesAndComments) {
-    const auto commands =
-        oslo_commands("LEN NEW \"a // b; c\" 1 // d\nRD 5; th 2;;\r\n\"q\" 3", "f");
+    std::vector<OsloCommand> commands;
+    for_each_oslo_command("LEN NEW \"a // b; c\" 1 // d\nRD 5; th 2;;\r\n\"q\" 3", "f",
+                          [&](const OsloCommand& each) { commands.push_back(each); });
     ASSERT_EQ(commands.size(), 4u);
     EXPECT_EQ(commands[0].parts, (std::vector<std::string>{"NEW", "a // b; c", "1"}));
     EXPECT_EQ(commands[2].word, "TH");

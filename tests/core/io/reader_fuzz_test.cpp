@@ -59,13 +59,16 @@ TEST(ReaderFuzzSlow, TenMegabytes) {
         for (std::size_t i = 0; words.size() < size; ++i) words += "W" + std::to_string(i) + " 1\n";
         expect_fine(reader, reader.samples.front() + words, "strange words behind");
         expect_fine(reader, words + reader.samples.front(), "strange words before");
-        for (const std::string_view piece : {"1", " ", "\n", "\t", "[", "{\"a\":", "<a>", "\"",
-                                             "\xff", "1 ", "1 1 1 1\n", "NXT\n", "[lens data]\n"}) {
+        for (const std::string_view piece :
+             {"1", " ", "\n", "\t", "[", "{\"a\":", "<a>", "\"", "\xff", "1 ", "1 1 1 1\n", "NXT\n",
+              "[lens data]\n", "{},"}) {
             std::string many;
             many.reserve(size + piece.size());
             while (many.size() < size) many += piece;
             expect_fine(reader, many, "ten megabytes of " + std::string(piece));
             expect_fine(reader, reader.samples.front() + many, "and behind a sample");
+            if (piece == "{},")
+                expect_fine(reader, "{\"lens_elements\": [" + many, "and in an array");
         }
     }
 }
