@@ -17,6 +17,7 @@ namespace ghostlight {
 namespace {
 
 constexpr std::size_t longest_excerpt = 60;
+constexpr std::size_t most_glasses = 100'000;  // the largest makers have some hundreds
 
 /// A glass on its way, and whether it is still any good.
 struct Draft {
@@ -33,7 +34,8 @@ class Reader {
     }
 
     GlassFile read(std::string_view text) {
-        for (const WordLine& line : word_lines(text)) take(line);
+        WordLines lines(text);
+        for (WordLine line; lines.next(line);) take(line);
         finish_glass();
         if (glasses_seen_ == 0)
             throw Error({.problem = "this is no AGF glass catalogue",
@@ -65,7 +67,12 @@ class Reader {
 
     void begin_glass(const WordLine& line) {
         finish_glass();
-        ++glasses_seen_;
+        if (++glasses_seen_ > most_glasses)
+            throw Error({.problem = "the catalogue has too many glasses",
+                         .file = result_.file.string(),
+                         .where = line.where(),
+                         .found = {},
+                         .expected = fmt::format("at most {}", most_glasses)});
         draft_.emplace();
         // A name may hold blanks; the formula's number is the first word that is one and is
         // followed by the code.
@@ -162,7 +169,7 @@ class Reader {
         glass.medium.dispersion = std::move(draft.formula);
         complete_glass(glass);
         if (glass.nd && glass.listed_nd && std::abs(*glass.nd - *glass.listed_nd) > index_agreement)
-            result_.notes.push_back(index_disagreement(glass));
+            add_note(result_.notes, index_disagreement(glass));
         result_.glasses.push_back(std::move(glass));
     }
 
@@ -175,7 +182,7 @@ class Reader {
         note(line.where(), text, fate, matters);
     }
     void note(const std::string& where, const std::string& text, Note::Fate fate, bool matters) {
-        result_.notes.push_back({Note::Severity::warning, where, text, fate, matters, {}});
+        add_note(result_.notes, {Note::Severity::warning, where, text, fate, matters, {}});
     }
 
     static std::string excerpt(std::string_view text) {

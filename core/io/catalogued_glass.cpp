@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/units.h"
 
@@ -35,6 +36,19 @@ std::optional<double> known_nd(const CataloguedGlass& glass) {
 
 std::optional<double> known_vd(const CataloguedGlass& glass) {
     return glass.vd ? glass.vd : glass.listed_vd;
+}
+
+void add_note(Notes& notes, Note note) {
+    constexpr std::size_t most = 1000;
+    if (notes.size() < most)
+        notes.push_back(std::move(note));
+    else if (notes.size() == most)
+        notes.push_back({note.severity,
+                         note.where,
+                         "more notes follow, which are not kept",
+                         Note::Fate::left_out,
+                         note.matters_for_flare,
+                         {}});
 }
 
 Note index_disagreement(const CataloguedGlass& glass) {

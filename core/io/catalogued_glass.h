@@ -48,6 +48,10 @@ struct GlassFile {
 /// another melt.
 inline constexpr double index_agreement = 1e-4;
 
+/// Adds a note, but to more than a thousand only that there are more: a broken file can have a note
+/// on every line.
+void add_note(Notes& notes, Note note);
+
 /// Says that the glass's formula and its listed nd, both known, do not agree.
 Note index_disagreement(const CataloguedGlass& glass);
 

@@ -81,7 +81,8 @@ class Reader {
     }
 
     MeasuredReflectance read(std::string_view text) {
-        for (const WordLine& line : word_lines(text)) {
+        WordLines lines(text);
+        for (WordLine line; lines.next(line);) {
             if (line.text.starts_with('#') || line.text.starts_with('!')) continue;
             if (columns_.empty())
                 header(line);

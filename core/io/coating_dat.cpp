@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/io/catalogued_glass.h"
 #include "core/io/read_text.h"
 #include "core/io/same_name.h"
 #include "core/io/word_lines.h"
@@ -16,7 +17,9 @@ namespace ghostlight {
 namespace {
 
 constexpr int most_repeats = 1000;
-constexpr std::size_t most_rows = 100'000;  // of a TABLE; measured ones have some thousands
+constexpr std::size_t most_layers = 2000;
+constexpr std::size_t most_definitions = 100'000;  // coating houses' files have some hundreds
+constexpr std::size_t most_rows = 100'000;         // of a TABLE; measured ones have some thousands
 constexpr std::size_t most_angles = 1000;
 constexpr std::size_t most_values = 1'000'000;
 constexpr std::size_t longest_excerpt = 60;
@@ -67,7 +70,8 @@ class Reader {
     explicit Reader(const std::filesystem::path& file) { result_.file = file; }
 
     CoatingFile read(std::string_view text) {
-        for (const WordLine& line : word_lines(text)) take(line);
+        WordLines lines(text);
+        for (WordLine line; lines.next(line);) take(line);
         finish();
         if (result_.materials.empty() && result_.coatings.empty() && result_.notes.empty())
             throw Error({.problem = "this is no coating file",
@@ -111,6 +115,12 @@ class Reader {
 
     void begin(const WordLine& line, Section section) {
         finish();
+        if (++definitions_ > most_definitions)
+            throw Error({.problem = "the file has too many definitions",
+                         .file = result_.file.string(),
+                         .where = line.where(),
+                         .found = {},
+                         .expected = fmt::format("at most {}", most_definitions)});
         section_ = section;
         usable_ = true;
         name_ = std::string(line.rest(1));
@@ -201,6 +211,8 @@ class Reader {
                              "thickness everywhere",
                              name_, line.words[4]),
                  true);
+        if (layers_.layers.size() >= most_layers)
+            return drop(line, fmt::format("coating {}: more than {} layers", name_, most_layers));
         layers_.layers.push_back(std::move(layer));
     }
 
@@ -240,8 +252,7 @@ class Reader {
     }
 
     void ideal(const WordLine& line, bool by_amplitudes) {
-        finish();
-        usable_ = true;
+        begin(line, Section::none);
         if (line.words.size() < 3)
             return drop(line, fmt::format("'{}' is not complete", shown(line)));
         name_ = std::string(line.words[1]);
@@ -287,8 +298,8 @@ class Reader {
         note(line.where(), text, matters);
     }
     void note(const std::string& where, const std::string& text, bool matters) {
-        result_.notes.push_back(
-            {Note::Severity::warning, where, text, Note::Fate::left_out, matters, {}});
+        add_note(result_.notes,
+                 {Note::Severity::warning, where, text, Note::Fate::left_out, matters, {}});
     }
     static std::string shown(const WordLine& line) {
         return std::string(line.text.substr(0, longest_excerpt));
@@ -302,6 +313,7 @@ class Reader {
     ListedLayers layers_;
     std::vector<TableRow> rows_;
     double angle_deg_ = 0.0;
+    std::size_t definitions_ = 0;
 };
 
 }  // namespace

@@ -69,13 +69,15 @@ class Guard : public YAML::EventHandler {
     int depth_ = 0;
 };
 
-std::vector<double> numbers_of(const Source& source, const YAML::Node& node,
-                               std::string_view what) {
+/// The numbers of a field of the entry.
+std::vector<double> numbers_of(const Source& source, const YAML::Node& entry,
+                               const YAML::Node& node, std::string_view what) {
     if (!node || !node.IsScalar())
-        source.refuse(node ? node.Mark() : YAML::Mark::null_mark(), fmt::format("no {}", what),
+        source.refuse(node ? node.Mark() : entry.Mark(), fmt::format("no {}", what),
                       "numbers separated by blanks");
     std::vector<double> numbers;
-    for (const WordLine& line : word_lines(node.Scalar()))
+    WordLines lines(node.Scalar());
+    for (WordLine line; lines.next(line);)
         for (const std::string_view word : line.words) {
             const auto number = real_number(word);
             if (!number)
@@ -90,7 +92,7 @@ std::vector<double> numbers_of(const Source& source, const YAML::Node& node,
 FormulaGlass formula_of(const Source& source, const YAML::Node& entry, int number) {
     FormulaGlass glass;
     glass.formula = number;
-    glass.coefficients = numbers_of(source, entry["coefficients"], "coefficients");
+    glass.coefficients = numbers_of(source, entry, entry["coefficients"], "coefficients");
     if (glass.coefficients.empty())
         source.refuse(entry.Mark(), "the formula has no coefficients", "at least one");
     constexpr std::size_t most = 64;  // the database's longest has 19
@@ -103,7 +105,7 @@ FormulaGlass formula_of(const Source& source, const YAML::Node& entry, int numbe
     // Older files say "range".
     const YAML::Node range = entry["wavelength_range"] ? entry["wavelength_range"] : entry["range"];
     if (range) {
-        const auto ends = numbers_of(source, range, "wavelength_range");
+        const auto ends = numbers_of(source, entry, range, "wavelength_range");
         if (ends.size() != 2 || !(ends[0] >= 0.0) || !(ends[1] > ends[0]))
             source.refuse(range.Mark(), "not a range of wavelengths", "shortest longest, in µm");
         glass.min_nm = nm_from_um(ends[0]);
@@ -121,7 +123,8 @@ std::vector<SpectralTable> tables_of(const Source& source, const YAML::Node& ent
         source.refuse(entry.Mark(), "the table has no data",
                       "lines of wavelength in µm and values");
     std::vector<std::vector<double>> rows;
-    for (const WordLine& line : word_lines(data.Scalar())) {
+    WordLines lines(data.Scalar());
+    for (WordLine line; lines.next(line);) {
         std::vector<double> row;
         for (const std::string_view word : line.words)
             if (const auto number = real_number(word)) row.push_back(*number);

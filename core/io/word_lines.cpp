@@ -29,19 +29,18 @@ std::string_view WordLine::rest(std::size_t first_word) const {
     return text.substr(static_cast<std::size_t>(words[first_word].data() - text.data()));
 }
 
-std::vector<WordLine> word_lines(std::string_view text) {
-    std::vector<WordLine> lines;
-    for (std::size_t number = 1; !text.empty(); ++number) {
-        const auto end = std::min(text.find('\n'), text.size());
-        WordLine line{number, {}, words_of(text.substr(0, end))};
-        text.remove_prefix(std::min(end + 1, text.size()));
+bool WordLines::next(WordLine& line) {
+    while (!rest_.empty()) {
+        const auto end = std::min(rest_.find('\n'), rest_.size());
+        line = {++number_, {}, words_of(rest_.substr(0, end))};
+        rest_.remove_prefix(std::min(end + 1, rest_.size()));
         if (line.words.empty()) continue;
         const char* first = line.words.front().data();
         const char* last = line.words.back().data() + line.words.back().size();
         line.text = {first, static_cast<std::size_t>(last - first)};
-        lines.push_back(std::move(line));
+        return true;
     }
-    return lines;
+    return false;
 }
 
 std::optional<double> real_number(std::string_view word) {

@@ -20,8 +20,17 @@ struct WordLine {
     std::string_view rest(std::size_t first_word) const;
 };
 
-/// The lines that have a word, LF or CRLF.
-std::vector<WordLine> word_lines(std::string_view text);
+/// Goes through the lines that have a word, LF or CRLF.
+class WordLines {
+   public:
+    explicit WordLines(std::string_view text) : rest_(text) {}
+    /// The next one, or false at the end of the text.
+    bool next(WordLine& line);
+
+   private:
+    std::string_view rest_;
+    std::size_t number_ = 0;
+};
 
 /// A finite number in C notation, with or without a plus, nothing around it.
 std::optional<double> real_number(std::string_view word);

@@ -79,8 +79,9 @@ double smooth_at(const SpectralTable& table, double wavelength_nm) {
     const double h = curve.width(i);
     const double t = (1.0 / (wavelength_nm * wavelength_nm) - curve.x(i)) / h;
     const double s = 1.0 - t;
-    // Cubic Hermite.
-    return table[i].value * s * s * (1.0 + 2.0 * t) + table[i + 1].value * t * t * (3.0 - 2.0 * t) +
+    // Cubic Hermite, in a form that leaves equal entries equal.
+    const double rise = table[i + 1].value - table[i].value;
+    return table[i].value + rise * t * t * (3.0 - 2.0 * t) +
            h * t * s * (curve.slope(i) * s - curve.slope(i + 1) * t);
 }
 

@@ -107,7 +107,7 @@ TEST(CoatingDat, WhatIsLeftOutIsSaid) {
     EXPECT_FALSE(coating_of(file, "NOTHING", 550.0));
     const Error::Parts error = error_of([&] { coating_of(file, "NOBODY", 550.0); });
     EXPECT_THAT(error.file, HasSubstr("COATING.DAT"));
-    EXPECT_EQ(error.where, "line 32");
+    EXPECT_EQ(error.where, "line 30");
     EXPECT_EQ(error.found, "XYZZY");
 }
 
