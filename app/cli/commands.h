@@ -15,5 +15,6 @@ void add_glasses(CLI::App& program);
 void add_ghosts(CLI::App& program);
 void add_render(CLI::App& program);
 void add_lenses(CLI::App& program);
+void add_convert(CLI::App& program);
 
 }  // namespace ghostlight::cli

@@ -59,28 +59,6 @@ void append_range(std::vector<double>& values, std::string_view first_text,
     }
 }
 
-std::filesystem::path find_lens(const std::string& text) {
-    std::error_code ignored;
-    if (std::filesystem::exists(text, ignored) && !std::filesystem::is_directory(text, ignored))
-        return text;
-    std::vector<std::string> names;
-    try {
-        for (const BundledLens& lens : bundled_lenses()) {
-            names.push_back(short_name(lens));
-            if (text == names.back() || text == lens.name) return lens.file;
-        }
-    } catch (const Error&) {
-        // Without the bundled lenses the answer is the same: there is no such file.
-    }
-    throw Error({.problem = "no such lens file",
-                 .file = {},
-                 .where = "LENS",
-                 .found = "'" + text + "'",
-                 .expected = names.empty() ? "the path of a lens file"
-                                           : fmt::format("the path of a lens file or one of {}",
-                                                         joined(names, ", "))});
-}
-
 void override_stop(Prescription& lens, const LensOptions& options) {
     if (!options.f_number.empty()) {
         lens.stop.f_number =
@@ -147,6 +125,28 @@ void note_capped_stop(const Prescription& lens, Notes& notes) {
 }
 
 }  // namespace
+
+std::filesystem::path find_lens(const std::string& text) {
+    std::error_code ignored;
+    if (std::filesystem::exists(text, ignored) && !std::filesystem::is_directory(text, ignored))
+        return text;
+    std::vector<std::string> names;
+    try {
+        for (const BundledLens& lens : bundled_lenses()) {
+            names.push_back(short_name(lens));
+            if (text == names.back() || text == lens.name) return lens.file;
+        }
+    } catch (const Error&) {
+        // Without the bundled lenses the answer is the same: there is no such file.
+    }
+    throw Error({.problem = "no such lens file",
+                 .file = {},
+                 .where = "LENS",
+                 .found = "'" + text + "'",
+                 .expected = names.empty() ? "the path of a lens file"
+                                           : fmt::format("the path of a lens file or one of {}",
+                                                         joined(names, ", "))});
+}
 
 Error bad_value(std::string_view option, std::string_view found, std::string_view expected) {
     return Error({.problem = "bad value",

@@ -266,6 +266,8 @@ void check_configurations(const Prescription& lens) {
             require_thickness(fmt::format("{}.thickness_mm.{}", where, row + 1), thickness_mm);
         }
         if (each.f_number) require_f_number(where + ".f_number", *each.f_number);
+        if (each.stop_semi_diameter_mm)
+            require_length(where + ".stop_semi_diameter_mm", *each.stop_semi_diameter_mm);
     }
 }
 
