@@ -19,8 +19,10 @@ endif()
 
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-    # GCC 12 sees an overlapping copy in every `"text" + std::string` (its bug 105651).
-    add_compile_options(-Wno-restrict)
+    # GCC 12 sees an overlapping copy in every `"text" + std::string` (its bug 105651), overflows in
+    # fmt's buffers and uninitialised values in std::variant, none of which there are; clang-tidy
+    # (./dev lint) still looks for the real ones.
+    add_compile_options(-Wno-restrict -Wno-stringop-overflow -Wno-maybe-uninitialized)
 endif()
 if(GHOSTLIGHT_WERROR)
     add_compile_options(-Werror)

@@ -6,7 +6,9 @@ find_package(fmt REQUIRED)
 find_package(glm REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(nlohmann_json REQUIRED)
+find_package(pugixml REQUIRED)
 find_package(CLI11 REQUIRED)
+find_package(yaml-cpp REQUIRED)
 find_package(OpenImageIO REQUIRED)
 find_package(Ceres REQUIRED)
 find_package(PkgConfig REQUIRED)
@@ -24,6 +26,11 @@ endforeach()
 set_target_properties(
     OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${existing}"
 )
+
+# Before version 0.8 the target has no namespace.
+if(NOT TARGET yaml-cpp::yaml-cpp)
+    add_library(yaml-cpp::yaml-cpp ALIAS yaml-cpp)
+endif()
 
 if(GHOSTLIGHT_BUILD_GUI)
     find_package(Qt6 6.4 REQUIRED COMPONENTS Widgets OpenGL OpenGLWidgets Svg)

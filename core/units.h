@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <numbers>
 
 namespace ghostlight {
@@ -8,6 +9,11 @@ namespace ghostlight {
 /// angles degrees at interfaces and radians inside.
 constexpr double rad_from_deg(double angle_deg) { return angle_deg * std::numbers::pi / 180.0; }
 constexpr double deg_from_rad(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
+/// Exact at both ends: 1 at 0°, 0 at 90°.
+inline double cos_from_deg(double angle_deg) {
+    return angle_deg <= 45.0 ? std::cos(rad_from_deg(angle_deg))
+                             : std::sin(rad_from_deg(90.0 - angle_deg));
+}
 constexpr double um_from_nm(double length_nm) { return length_nm * 1e-3; }
 constexpr double nm_from_um(double length_um) { return length_um * 1e3; }
 constexpr double mm_from_nm(double length_nm) { return length_nm * 1e-6; }

@@ -30,7 +30,8 @@ endfunction()
 
 forbid(core "core knows no Qt, OpenGL or VTK" "" "${qt}" "${gl}" "${vtk}")
 forbid(core "core is the lowest layer" "" "render/" "widgets/" "app/" "tests/")
-forbid(core "OpenImageIO and JSON stay in core/io" "^core/io/" "OpenImageIO/" "nlohmann/")
+forbid(core "OpenImageIO, JSON and XML stay in core/io" "^core/io/" "OpenImageIO/" "nlohmann/"
+       "pugi")
 forbid(core "Ceres' solver stays in core/fit (ceres/jet.h may be used elsewhere)" "^core/fit/"
        "ceres/([^j]|j[^e]|jet[^.])")
 forbid(render "render knows no Qt or VTK" "" "${qt}" "${vtk}")

@@ -166,19 +166,6 @@ double tallest_beside(const Prescription& lens, std::size_t row) {
 
 }  // namespace
 
-double sag_mm(const Surface& surface, double y_mm) {
-    const double c = curvature_per_mm(surface.curve);
-    const double bend = (1.0 + surface.conic) * c * c;
-    const double y2 = bend * y_mm * y_mm > 1.0 ? 1.0 / bend : y_mm * y_mm;
-    double sag = c * y2 / (1.0 + std::sqrt(std::max(0.0, 1.0 - bend * y2)));
-    double power = y2 * y2;
-    for (const double term : surface.aspheric) {
-        sag += term * power;
-        power *= y2;
-    }
-    return sag;
-}
-
 LensDrawing lens_drawing(const Prescription& lens, const OpticalSystem* system,
                          const LightDirection& light) {
     LensDrawing drawing;

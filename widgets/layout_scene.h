@@ -69,8 +69,4 @@ struct LensDrawing {
 LensDrawing lens_drawing(const Prescription& lens, const OpticalSystem* system,
                          const LightDirection& light);
 
-/// z of a surface relative to its vertex at a height; beyond the end of a sphere or an ellipsoid,
-/// of that end.
-double sag_mm(const Surface& surface, double y_mm);
-
 }  // namespace ghostlight

@@ -8,6 +8,9 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/report.h"
+#include "core/io/coating_library.h"
+#include "core/io/glass_library.h"
+#include "core/io/same_name.h"
 #include "core/units.h"
 
 namespace ghostlight::cli {
@@ -15,15 +18,9 @@ namespace {
 
 struct CoatingOptions {
     LensOptions lens;
-    std::string surface, stack, wavelengths, angles, direction;
+    std::string surface, stack, library, substrate, wavelengths, angles, direction;
     OutputOptions output;
 };
-
-// Exact at both ends: 1 at normal incidence, 0 at grazing.
-double cos_deg(double angle_deg) {
-    return angle_deg <= 45.0 ? std::cos(rad_from_deg(angle_deg))
-                             : std::sin(rad_from_deg(90.0 - angle_deg));
-}
 
 using FilmAt = std::function<Film(double wavelength_nm)>;
 
@@ -31,6 +28,28 @@ bool is_backward(const std::string& direction) {
     if (!direction.empty() && direction != "forward" && direction != "backward")
         throw bad_value("--direction", direction, "forward or backward");
     return direction == "backward";
+}
+
+/// What the coating lies on: a glass's name or an index; what it was designed for by default.
+Medium substrate_of(const CoatingOptions& options) {
+    constexpr double crown = 1.52;
+    if (options.substrate.empty()) {
+        for (const LibraryCoating& each : coating_library())
+            if (is_same_name(each.name, options.library) && each.substrate_index > 0.0)
+                return {{}, ConstantIndex{each.substrate_index}};
+        return {{}, ConstantIndex{crown}};
+    }
+    if (const auto index = parse_number(options.substrate);
+        index && *index >= 1.0 && *index <= 10.0)
+        return {{}, ConstantIndex{*index}};
+    if (const auto glass = find_glass(options.substrate, {})) return glass->glass.medium;
+    throw bad_value("--substrate", options.substrate, "a glass's name, or an index from 1 to 10");
+}
+
+std::string substrate_text(const Medium& substrate) {
+    return substrate.name.empty()
+               ? exact_text(Cell(std::get<ConstantIndex>(substrate.dispersion).n))
+               : substrate.name;
 }
 
 FilmAt film_of_surface(const LoadedLens& loaded, const CoatingOptions& options, std::size_t row) {
@@ -56,7 +75,7 @@ Table reflectance_table(const FilmAt& film_at_wavelength, const std::vector<doub
     for (const double wavelength_nm : wavelengths_nm) {
         const Film film = film_at_wavelength(wavelength_nm);
         for (const double angle_deg : angles_deg) {
-            const Reflectances found = reflectances(film, cos_deg(angle_deg));
+            const Reflectances found = reflectances(film, cos_from_deg(angle_deg));
             if (!std::isfinite(found.r() + found.t()))
                 throw Error(
                     fmt::format("no reflectance at {} nm and {} degrees: an index or a "
@@ -77,8 +96,12 @@ void run(const CoatingOptions& options) {
                                        [](double deg) { return deg >= 0.0 && deg <= 90.0; });
     Report report;
     report.request = {{"command", json_string("coating")}};
-    if (options.stack.empty() == options.lens.lens.empty())
-        throw Error("coating needs either LENS with --surface, or --stack");
+    if ((options.stack.empty() ? 0 : 1) + (options.library.empty() ? 0 : 1) +
+            (options.lens.lens.empty() ? 0 : 1) !=
+        1)
+        throw Error("coating needs one of LENS with --surface, --stack, and --library");
+    if (!options.substrate.empty() && options.library.empty())
+        throw Error("--substrate belongs to --library");
 
     if (!options.stack.empty()) {
         report.request.emplace_back("stack", json_string(options.stack));
@@ -86,6 +109,25 @@ void run(const CoatingOptions& options) {
         report.table = reflectance_table(
             [&](double nm) {
                 return read_option("--stack", [&] { return parse_stack(options.stack, nm); });
+            },
+            wavelengths_nm, angles_deg);
+        write_report(report, options.output);
+        return;
+    }
+    if (!options.library.empty()) {
+        const bool backward = is_backward(options.direction);
+        const Coating coating =
+            read_option("--library", [&] { return parse_coating(options.library); });
+        const Medium substrate = substrate_of(options);
+        report.request.emplace_back("library", json_string(options.library));
+        report.request.emplace_back("substrate", json_string(substrate_text(substrate)));
+        report.request.emplace_back("direction", json_string(backward ? "backward" : "forward"));
+        report.heading = fmt::format("{} on {}, angle in {}", options.library,
+                                     substrate_text(substrate), backward ? "the glass" : "air");
+        report.table = reflectance_table(
+            [&](double nm) {
+                const Film film = film_at(coating, Medium{}, substrate, nm);
+                return backward ? reversed(film) : film;
             },
             wavelengths_nm, angles_deg);
         write_report(report, options.output);
@@ -124,9 +166,17 @@ void add_coating(CLI::App& program) {
                  "instead of a lens: \"n0 | n:nm | ... | n2\", layers as index[,k]:thickness");
     CLI::Option* direction = add_text(*command, "--direction", options->direction,
                                       "forward|backward", "which side the light comes from");
+    CLI::Option* library = add_text(*command, "--library", options->library, "NAME|FILE.csv",
+                                    "instead of a lens: a coating of the library, or measured\n"
+                                    "reflectances, between air and --substrate");
+    add_text(*command, "--substrate", options->substrate, "GLASS|INDEX",
+             "what the coating lies on; default: what it was designed for, or 1.52");
     stack->excludes(lens);
     stack->excludes(surface);
     stack->excludes(direction);
+    library->excludes(lens);
+    library->excludes(surface);
+    library->excludes(stack);
     add_text(*command, "--wavelengths", options->wavelengths, "A:B:STEP",
              "wavelengths, nm; also one number or a comma list")
         ->required();
@@ -137,7 +187,8 @@ void add_coating(CLI::App& program) {
     command->footer(R"(Examples:
   ghostlight-cli coating --stack "1.0 | 1.38:96.4 | 1.5" --wavelengths 400:700:10 --angles 0:80:20
   ghostlight-cli coating tessar_brendel_100_f2.8 --surface 3 --direction backward \
-      --wavelengths 550 --angles 0,30,60 --coating qw:550:1.38 --csv)");
+      --wavelengths 550 --angles 0,30,60 --coating qw:550:1.38 --csv
+  ghostlight-cli coating --library v-coat --substrate N-BK7 --wavelengths 400:700:20 --angles 0)");
     command->callback([options] { run(*options); });
 }
 

@@ -10,8 +10,12 @@ namespace ghostlight::cli {
 void add_info(CLI::App& program);
 void add_trace(CLI::App& program);
 void add_coating(CLI::App& program);
+void add_coatings(CLI::App& program);
+void add_glasses(CLI::App& program);
 void add_ghosts(CLI::App& program);
 void add_render(CLI::App& program);
+void add_plan(CLI::App& program);
 void add_lenses(CLI::App& program);
+void add_convert(CLI::App& program);
 
 }  // namespace ghostlight::cli

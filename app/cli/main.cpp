@@ -24,6 +24,8 @@ constexpr auto examples = R"(Examples:
   ghostlight-cli trace LENS --ghost 5-3 --field 15 --rays rays.csv --csv
   ghostlight-cli coating --stack "1.0 | 1.38:96.4 | 1.5" --wavelengths 400:700:10 --angles 0:80:20
   ghostlight-cli render LENS --field 15 -o flare.exr
+  ghostlight-cli convert lens.zmx lens.json --report
+  ghostlight-cli glasses --nd 1.62 --vd 60
 
 Units: lengths mm, wavelengths nm in standard air, angles degrees; fluxes mm2 (per unit irradiance
 of the light). Surfaces count from 1, the stop included; ghost i-j turns first at i, then at j.
@@ -66,7 +68,11 @@ int run(std::vector<std::string> arguments) {
     add_coating(program);
     add_ghosts(program);
     add_render(program);
+    add_plan(program);
     add_lenses(program);
+    add_convert(program);
+    add_glasses(program);
+    add_coatings(program);
     try {
         check_command(program, arguments);
         std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them

@@ -5,7 +5,10 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/io/coating_csv.h"
+#include "core/io/coating_library.h"
 #include "core/io/lens_file.h"
+#include "core/io/same_name.h"
 #include "core/optics/optical_system.h"
 #include "core/optics/paraxial.h"
 #include "core/units.h"
@@ -56,28 +59,6 @@ void append_range(std::vector<double>& values, std::string_view first_text,
     }
 }
 
-std::filesystem::path find_lens(const std::string& text) {
-    std::error_code ignored;
-    if (std::filesystem::exists(text, ignored) && !std::filesystem::is_directory(text, ignored))
-        return text;
-    std::vector<std::string> names;
-    try {
-        for (const BundledLens& lens : bundled_lenses()) {
-            names.push_back(short_name(lens));
-            if (text == names.back() || text == lens.name) return lens.file;
-        }
-    } catch (const Error&) {
-        // Without the bundled lenses the answer is the same: there is no such file.
-    }
-    throw Error({.problem = "no such lens file",
-                 .file = {},
-                 .where = "LENS",
-                 .found = "'" + text + "'",
-                 .expected = names.empty() ? "the path of a lens file"
-                                           : fmt::format("the path of a lens file or one of {}",
-                                                         joined(names, ", "))});
-}
-
 void override_stop(Prescription& lens, const LensOptions& options) {
     if (!options.f_number.empty()) {
         lens.stop.f_number =
@@ -114,13 +95,9 @@ void override_sensor_reflectance(Sensor& sensor, std::string_view text) {
     sensor.reflectance = UniformReflectance{*share};
 }
 
-Coating parse_coating(std::string_view text) {
-    constexpr std::string_view expected =
-        "none, qw:NM or qw:NM:INDEX, such as qw:550 (MgF2) or qw:550:1.38";
-    if (text == "none") return Uncoated{};
+Coating parse_quarter_wave(std::string_view text, std::string_view expected) {
     const auto parts = split(text, ':');
-    if (parts.front() != "qw" || parts.size() < 2 || parts.size() > 3)
-        throw bad_value("--coating", text, expected);
+    if (parts.size() < 2 || parts.size() > 3) throw bad_value("--coating", text, expected);
     QuarterWave film;
     const auto center = parse_number(parts[1]);
     if (!center || *center <= 0.0) throw bad_value("--coating", text, expected);
@@ -148,6 +125,28 @@ void note_capped_stop(const Prescription& lens, Notes& notes) {
 }
 
 }  // namespace
+
+std::filesystem::path find_lens(const std::string& text) {
+    std::error_code ignored;
+    if (std::filesystem::exists(text, ignored) && !std::filesystem::is_directory(text, ignored))
+        return text;
+    std::vector<std::string> names;
+    try {
+        for (const BundledLens& lens : bundled_lenses()) {
+            names.push_back(short_name(lens));
+            if (text == names.back() || text == lens.name) return lens.file;
+        }
+    } catch (const Error&) {
+        // Without the bundled lenses the answer is the same: there is no such file.
+    }
+    throw Error({.problem = "no such lens file",
+                 .file = {},
+                 .where = "LENS",
+                 .found = "'" + text + "'",
+                 .expected = names.empty() ? "the path of a lens file"
+                                           : fmt::format("the path of a lens file or one of {}",
+                                                         joined(names, ", "))});
+}
 
 Error bad_value(std::string_view option, std::string_view found, std::string_view expected) {
     return Error({.problem = "bad value",
@@ -264,9 +263,10 @@ CLI::Option* add_lens(CLI::App& command, LensOptions& options) {
         "share of the light that the sensor sends back, 0 to 1, at every angle and\n"
         "wavelength; none: the sensor is not a ghost's surface; default: as the\nlens file says")
         ->group(group);
-    add_text(command, "--coating", options.coating, "none|qw:NM[:INDEX]",
-             "quarter-wave layer centred at NM nm on every surface with air on exactly\n"
-             "one side, none elsewhere; without INDEX it is MgF2; default: as the\nlens file says")
+    add_text(command, "--coating", options.coating, "none|qw:NM[:INDEX]|NAME|FILE.csv",
+             "on every surface with air on exactly one side, none elsewhere: a quarter-wave\n"
+             "layer centred at NM nm (without INDEX of MgF2), a coating of the library, or\n"
+             "measured reflectances; default: as the lens file says")
         ->group(group);
     return lens;
 }
@@ -304,6 +304,19 @@ std::vector<std::string> configurations_of(const LensOptions& options) {
     std::vector<std::string> names;
     for (const std::string_view name : split(options.config, ',')) names.emplace_back(name);
     return names;
+}
+
+Coating parse_coating(std::string_view text) {
+    if (text == "none") return Uncoated{};
+    const std::string expected = fmt::format(
+        "none, qw:NM or qw:NM:INDEX, such as qw:550 (MgF2) or qw:550:1.38, a table of "
+        "reflectances FILE.csv, or one of {}",
+        joined(coating_names(), ", "));
+    if (text.starts_with("qw:")) return parse_quarter_wave(text, expected);
+    if (const Coating* known = find_coating(text)) return *known;
+    if (is_same_name(std::filesystem::path(text).extension().string(), ".csv"))
+        return read_measured_csv(text);
+    throw bad_value("--coating", text, expected);
 }
 
 CLI::Option* add_light(CLI::App& command, LightOptions& options) {

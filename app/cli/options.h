@@ -70,8 +70,14 @@ struct LensOptions {
 };
 CLI::Option* add_lens(CLI::App& command, LensOptions& options);
 
+/// What may follow --coating. Throws Error.
+Coating parse_coating(std::string_view text);
+
 /// What to type for a bundled lens; its full name works too.
 std::string short_name(const BundledLens& lens);
+
+/// The file of LENS: a path, or the name of a bundled lens. Throws Error.
+std::filesystem::path find_lens(const std::string& text);
 
 /// The lens to work on: read, in its configuration, with the overrides applied.
 struct LoadedLens {

@@ -6,6 +6,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/exposure.h"
+#include "app/cli/method_option.h"
 #include "app/cli/output.h"
 #include "app/cli/report.h"
 #include "app/cli/spectrum_option.h"
@@ -20,6 +21,7 @@ struct RenderOptions {
     LensOptions lens;
     LightOptions light{.field = "0"};
     SpectrumOptions spectrum;
+    MethodOptions method;
     std::string width = "1280", exposure, per_ghost;
     OutputOptions output;  ///< its file is the picture
 };
@@ -67,7 +69,10 @@ FlareOrigin origin_of(const LoadedLens& loaded, const FlareRequest& request) {
                        .spectrum = name(request.spectrum),
                        .wavelengths_nm = {},
                        .light = request.light};
-    for (const SpectralSample& each : sample(request.spectrum, request.spectral_samples))
+    const bool from_scene =
+        request.method == FlareMethod::planned || request.method == FlareMethod::paraxial;
+    const int samples = from_scene ? FlareScene::usual_samples : request.spectral_samples;
+    for (const SpectralSample& each : sample(request.spectrum, samples))
         origin.wavelengths_nm.push_back(each.wavelength_nm);
     return origin;
 }
@@ -78,6 +83,7 @@ void run(const RenderOptions& options) {
     FlareRequest request;
     request.light = light_direction(options.light);
     request.spectrum = spectrum_of(options.spectrum);
+    set_method(options.method, request);
     request.width_px = static_cast<int>(integer_value(
         "--width", options.width, "a whole number of pixels from 16 to 16384", 16, 16384));
     std::optional<double> exposure_ev;
@@ -96,7 +102,8 @@ void run(const RenderOptions& options) {
     }
     const LoadedLens loaded = load_lens(options.lens);
     // With layers the same grids for all, so that the layers add up to the picture.
-    if (per_ghost > 0) request.method = FlareMethod::uniform;
+    if (per_ghost > 0 && request.method == FlareMethod::planned)
+        request.method = FlareMethod::uniform;
     const FlareImage image = *render_flare(loaded.lens, request);
     const FlareOrigin origin = origin_of(loaded, request);
     GhostLayers layers;
@@ -118,13 +125,16 @@ void run(const RenderOptions& options) {
                       {"azimuth_deg", json_value(request.light.azimuth_deg)},
                       {"spectrum", json_string(name(request.spectrum))}};
     report.table.columns = {"file",     "width_px",           "height_px",   "ghosts",  "rays",
-                            "flux_mm2", "flux_on_sensor_mm2", "exposure_ev", "time_ms", "layers"};
+                            "flux_mm2", "flux_on_sensor_mm2", "exposure_ev", "time_ms", "layers",
+                            "method",   "estimated_error"};
     report.table.rows = {
         {file, static_cast<std::int64_t>(image.width_px),
          static_cast<std::int64_t>(image.height_px), static_cast<std::int64_t>(image.ghosts),
          static_cast<std::int64_t>(image.rays), image.flux_mm2, image.flux_on_sensor_mm2,
          exposure_ev ? Cell(*exposure_ev) : Cell(), image.times.total_ms,
-         layers.names.empty() ? Cell() : Cell(joined(layers.names, " "))}};
+         layers.names.empty() ? Cell() : Cell(joined(layers.names, " ")),
+         std::string(method_name(request.method)),
+         image.plan.ghosts.empty() ? Cell() : Cell(image.plan.estimated_error())}};
     OutputOptions summary = options.output;
     summary.file.clear();
     write_report(report, summary);
@@ -145,6 +155,7 @@ void add_render(CLI::App& program) {
         ->required();
     add_light(*command, options->light)->capture_default_str();
     add_spectrum(*command, options->spectrum);
+    add_method(*command, options->method);
     add_text(*command, "--width", options->width, "PX",
              "width, pixels; the height follows from the sensor")
         ->capture_default_str();

@@ -50,11 +50,14 @@ FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threa
                                   static_cast<float>(2.0 * layer.n * layer.k),
                                   static_cast<float>(2.0 * std::numbers::pi / film.wavelength_nm *
                                                      layer.thickness_nm)});
+            const std::vector<AngleAt<float>> angles = angles_at<float>(film);
             curve({.n_in = static_cast<float>(film.n_in),
                    .n_out = static_cast<float>(film.n_out),
                    .layers = layers.data(),
                    .layer_count = static_cast<int>(layers.size()),
                    .absorbing = is_absorbing(film),
+                   .angles = angles.empty() ? nullptr : angles.data(),
+                   .angle_count = static_cast<int>(angles.size()),
                    .count = padded_nodes,
                    .cosines = cosines.data(),
                    .reflectance = r.data(),

@@ -12,7 +12,9 @@ namespace ghostlight::GHOSTLIGHT_JOIN(kernels_, GHOSTLIGHT_ISA) {
         for (std::size_t i = 0; i < c.count; i += V::size()) {
             const V cosine(c.cosines + i, stdx::element_aligned);
             const Amplitudes<V> film =
-                c.absorbing
+                c.angles != nullptr
+                    ? given_amplitudes(c.n_in, c.angles, c.angle_count, c.n_out, cosine)
+                : c.absorbing
                     ? film_amplitudes<true>(c.n_in, c.layers, c.layer_count, c.n_out, cosine)
                     : film_amplitudes<false>(c.n_in, c.layers, c.layer_count, c.n_out, cosine);
             const V r = 0.5F * (norm(film.r_s) + norm(film.r_p));

@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "core/instruction_set.h"
-#include "core/optics/thin_film.h"
+#include "core/optics/film_angles.h"
 
 namespace ghostlight {
 
@@ -13,6 +13,8 @@ struct FilmCurveView {
     const LayerAt<float>* layers;
     int layer_count;
     bool absorbing;
+    const AngleAt<float>* angles;  ///< where shares are given instead of layers, else null
+    int angle_count;
     std::size_t count;  ///< of cosines; a multiple of `film_padding`
     const float* cosines;
     float *reflectance, *transmittance;  ///< means of s and p

@@ -10,6 +10,7 @@
 #include "core/io/lens_file.h"
 #include "core/io/medium_json.h"
 #include "core/io/read_text.h"
+#include "core/io/same_name.h"
 #include "core/units.h"
 
 namespace ghostlight {
@@ -22,7 +23,7 @@ bool holds_data(const fs::path& folder) {
     return fs::is_regular_file(folder / "glasses" / "glasses.json", status);
 }
 
-Medium read_catalogued(const JsonAt& entry) {
+CataloguedGlass read_catalogued(const JsonAt& entry) {
     entry.require_object();
     FormulaGlass formula = read_formula(entry, "formula");
     constexpr std::string_view expected = "[shortest, longest] wavelength in µm";
@@ -31,21 +32,35 @@ Medium read_catalogued(const JsonAt& entry) {
     if (range.size() != 2) range.refuse("not a range", expected);
     formula.min_nm = nm_from_um(range[0].number());
     formula.max_nm = nm_from_um(range[1].number());
-    return {entry.at("name", "the glass's name").text(), std::move(formula)};
+    CataloguedGlass glass;
+    glass.medium = {entry.at("name", "the glass's name").text(), std::move(formula)};
+    // "crystal (Malitson 1963)" → CRYSTAL
+    const std::string vendor = optional_text(entry, "vendor");
+    glass.catalog = upper_case(vendor.substr(0, vendor.find(" (")));
+    if (glass.catalog.find_first_of(" ,") != std::string::npos) glass.catalog = "OTHER";
+    glass.comment = optional_text(entry, "source");
+    glass.where = entry.path();
+    complete_glass(glass);
+    return glass;
 }
 
-GlassCatalog read_catalog(const fs::path& file) {
+/// In the file's order; a catalogue for each maker.
+std::vector<GlassFile> read_catalogs(const fs::path& file) {
     const std::string name = file.string();
     const Json json = parse_json(read_text(file), name);
     const JsonAt root(json, name);
     root.require_object("a glass catalogue {…}");
     const JsonAt entries = root.at("glasses", "an array of glasses");
     entries.require_array();
-    // The default coating material goes by its common name.
-    GlassCatalog catalog{{magnesium_fluoride()}};
-    for (std::size_t i = 0; i < entries.size(); ++i)
-        catalog.glasses.push_back(read_catalogued(entries[i]));
-    return catalog;
+    std::vector<GlassFile> catalogs;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        CataloguedGlass glass = read_catalogued(entries[i]);
+        auto own = std::ranges::find(catalogs, glass.catalog, &GlassFile::name);
+        if (own == catalogs.end())
+            own = catalogs.insert(catalogs.end(), GlassFile{glass.catalog, file, {}, {}});
+        own->glasses.push_back(std::move(glass));
+    }
+    return catalogs;
 }
 
 }  // namespace
@@ -74,8 +89,20 @@ fs::path data_directory() {
                                          installed.string())});
 }
 
+const std::vector<GlassFile>& bundled_catalogs() {
+    static const std::vector<GlassFile> catalogs =
+        read_catalogs(data_directory() / "glasses" / "glasses.json");
+    return catalogs;
+}
+
 const GlassCatalog& bundled_glasses() {
-    static const GlassCatalog catalog = read_catalog(data_directory() / "glasses" / "glasses.json");
+    static const GlassCatalog catalog = [] {
+        // The default coating material goes by its common name.
+        GlassCatalog all{{magnesium_fluoride()}};
+        for (const GlassFile& maker : bundled_catalogs())
+            for (const CataloguedGlass& glass : maker.glasses) all.glasses.push_back(glass.medium);
+        return all;
+    }();
     return catalog;
 }
 

@@ -7,6 +7,16 @@
 #include <cctype>
 
 #include "core/error.h"
+#include "core/io/flaresim_lens.h"
+#include "core/io/flaresim_write.h"
+#include "core/io/imported_lens.h"
+#include "core/io/open_lens_flare.h"
+#include "core/io/optical_bench.h"
+#include "core/io/oslo.h"
+#include "core/io/pbrt_lens.h"
+#include "core/io/realflare.h"
+#include "core/io/seq.h"
+#include "core/io/zmx.h"
 
 namespace ghostlight {
 namespace {
@@ -20,8 +30,32 @@ bool looks_like_json(std::string_view text) {
 }
 std::string write_json(const Prescription& lens, Notes&) { return lens_to_json(lens); }
 
+/// A reader of a foreign format, with what its file leaves open worked out.
+template <ImportedLens (*import)(const FormatSource&)>
+LensFile read_foreign(const FormatSource& source) {
+    try {
+        return complete_import(import(source), source.file.string());
+    } catch (const Error& error) {
+        if (!error.parts().file.empty()) throw;
+        // From a lens that cannot be worked with at all, by what works with lenses from anywhere.
+        Error::Parts parts = error.parts();
+        parts.file = source.file.string();
+        throw Error(std::move(parts));
+    }
+}
+
 constexpr std::array formats = {
+    LensFormat{"realflare", ".json", is_realflare, read_foreign<import_realflare>, nullptr},
     LensFormat{"Ghostlight or listing JSON", ".json", looks_like_json, read_json, write_json},
+    LensFormat{"Zemax", ".zmx", is_zmx, read_foreign<import_zmx>, write_zmx},
+    LensFormat{"CODE V", ".seq", is_seq, read_foreign<import_seq>, write_seq},
+    LensFormat{"OSLO", ".len", is_oslo, read_foreign<import_oslo>, nullptr},
+    LensFormat{"PhotonsToPhotos Optical Bench", ".txt", is_optical_bench,
+               read_foreign<import_optical_bench>, nullptr},
+    LensFormat{"FlareSim", ".lens", is_flaresim_lens, read_foreign<import_flaresim_lens>, write_flaresim_lens},
+    LensFormat{"OpenLensFlare", ".xml", is_open_lens_flare, read_foreign<import_open_lens_flare>,
+               nullptr},
+    LensFormat{"pbrt", ".dat", is_pbrt_lens, read_foreign<import_pbrt_lens>, nullptr},
 };
 
 std::string lower_extension(const std::filesystem::path& file) {

@@ -15,6 +15,9 @@ namespace {
 constexpr std::size_t largest_text = std::size_t{16} << 20;
 constexpr std::size_t deepest = 64;
 constexpr std::size_t most_fields = 10000;
+/// At the end of each object the parser looks through the array that holds it: a few hundred
+/// million looks in all.
+constexpr std::size_t most_objects = 10000, most_objects_in_all = 100000;
 constexpr std::size_t longest_excerpt = 80;
 
 [[noreturn]] void refuse_text(const std::string& file, std::string where, std::string problem,
@@ -43,21 +46,23 @@ class Limits {
     bool operator()(int, Json::parse_event_t event, const Json& parsed) {
         switch (event) {
             case Json::parse_event_t::object_start:
+                count_object();
+                [[fallthrough]];
             case Json::parse_event_t::array_start:
-                fields_.emplace_back();
-                if (fields_.size() > deepest)
+                levels_.emplace_back();
+                if (levels_.size() > deepest)
                     refuse_text(file_, {}, "objects and arrays nest too deeply",
                                 fmt::format("at most {} levels", deepest));
                 break;
             case Json::parse_event_t::object_end:
             case Json::parse_event_t::array_end:
-                fields_.pop_back();
+                levels_.pop_back();
                 break;
             case Json::parse_event_t::key:
-                if (!fields_.back().insert(parsed.get<std::string>()).second)
+                if (!levels_.back().fields.insert(parsed.get<std::string>()).second)
                     refuse_text(file_, {}, "an object has the field " + excerpt(parsed) + " twice",
                                 "each field once");
-                if (fields_.back().size() > most_fields)
+                if (levels_.back().fields.size() > most_fields)
                     refuse_text(file_, {}, "an object has too many fields",
                                 fmt::format("at most {}", most_fields));
                 break;
@@ -68,8 +73,23 @@ class Limits {
     }
 
    private:
+    struct Level {
+        std::set<std::string> fields;
+        std::size_t objects = 0;  ///< right below it
+    };
+
+    void count_object() {
+        if (!levels_.empty() && ++levels_.back().objects > most_objects)
+            refuse_text(file_, {}, "an array has too many objects",
+                        fmt::format("at most {}", most_objects));
+        if (++objects_ > most_objects_in_all)
+            refuse_text(file_, {}, "the file has too many objects",
+                        fmt::format("at most {}", most_objects_in_all));
+    }
+
     const std::string& file_;
-    std::vector<std::set<std::string>> fields_;
+    std::vector<Level> levels_;
+    std::size_t objects_ = 0;
 };
 
 /// "[json.exception.parse_error.101] parse error at line 3, column 4: syntax error …" → its parts.

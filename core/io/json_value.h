@@ -15,7 +15,8 @@ namespace ghostlight {
 using Json = nlohmann::ordered_json;
 
 /// Parses UTF-8 JSON, with or without a byte-order mark. Refuses text that nests deeper than 64
-/// levels, objects that give a field twice or have more than 10000, and text above 16 MiB, so that
+/// levels, objects that give a field twice or have more than 10000, arrays of more than 10000
+/// objects, more than 100000 objects, and text above 16 MiB, so that
 /// whatever follows may recurse and search plainly. Throws Error naming the line and column.
 Json parse_json(std::string_view text, const std::string& file);
 

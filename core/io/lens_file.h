@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/io/catalogued_glass.h"
 #include "core/optics/glass.h"
 #include "core/optics/prescription.h"
 
@@ -37,7 +38,10 @@ void write_file_safely(const std::filesystem::path& file, std::string_view text)
 /// next to the program, or the source tree's lenses folder. Throws Error when there is none.
 std::filesystem::path data_directory();
 
-/// The bundled glass catalogue (lenses/glasses), read once.
+/// The bundled glass catalogue (lenses/glasses) by maker, read once.
+const std::vector<GlassFile>& bundled_catalogs();
+
+/// The same in one list.
 const GlassCatalog& bundled_glasses();
 
 struct BundledLens {

@@ -4,6 +4,7 @@
 
 #include <charconv>
 
+#include "core/io/coating_json.h"
 #include "core/io/medium_json.h"
 #include "core/io/sensor_json.h"
 
@@ -35,7 +36,8 @@ std::vector<double> read_aspheric(const JsonAt& surface) {
         for (const auto& [name, value] : named->value().items()) {
             const auto index = aspheric_index(name);
             if (!index)
-                named->refuse(fmt::format("'{}' is not a term of an even asphere", name), expected);
+                named->refuse(fmt::format("{} is not a term of an even asphere", excerpt(name)),
+                              expected);
             if (terms.size() <= *index) terms.resize(*index + 1, 0.0);
             terms[*index] = named->at(name, expected).number();
         }
@@ -69,11 +71,14 @@ Surface read_surface(const JsonAt& object, bool is_last) {
         surface.thickness_mm = object.at("thickness_mm", thickness).number(thickness);
     constexpr std::string_view semi_diameter = "the clear radius in mm";
     surface.semi_diameter_mm = object.at("semi_diameter_mm", semi_diameter).number(semi_diameter);
+    if (const auto sized = object.find("semi_diameter_sized"))
+        surface.semi_diameter_sized = sized->boolean();
     surface.comment = optional_text(object, "comment");
     keep_unknown(object,
                  {"radius_mm", "curvature_per_mm", "conic", "aspheric", "aspheric_mm",
-                  "thickness_mm", "glass", "model", "index", "formula", "unknown_glass",
-                  "semi_diameter_mm", "coating", "comment"},
+                  "thickness_mm", "glass", "model", "index", "formula", "agf", "table",
+                  "transmittance", "unknown_glass", "semi_diameter_mm", "semi_diameter_sized",
+                  "coating", "comment"},
                  surface.unknown);
     surface.medium_after = read_medium(object, surface.unknown);
     if (const auto coating = object.find("coating"))
@@ -149,6 +154,9 @@ Configuration read_configuration(const JsonAt& object, std::size_t surfaces) {
     Configuration configuration;
     configuration.name = object.at("name", "a text").text();
     configuration.f_number = optional_number(object, "f_number");
+    configuration.stop_semi_diameter_mm = optional_number(object, "stop_semi_diameter_mm");
+    if (const auto published = object.find("published"))
+        configuration.published = read_published(*published);
     if (const auto thicknesses = object.find("thickness_mm")) {
         const std::string expected = "{\"row\": thickness, …}, with " + row_range(surfaces);
         thicknesses->require_object(expected);
@@ -162,7 +170,8 @@ Configuration read_configuration(const JsonAt& object, std::size_t surfaces) {
                 thicknesses->at(text, expected).number("a thickness in mm");
         }
     }
-    keep_unknown(object, {"name", "f_number", "thickness_mm"}, configuration.unknown);
+    keep_unknown(object, {"name", "f_number", "stop_semi_diameter_mm", "published", "thickness_mm"},
+                 configuration.unknown);
     return configuration;
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/io/lens_json.h"
+#include "core/io/coating_json.h"
 #include "core/io/medium_json.h"
 #include "core/io/sensor_json.h"
 
@@ -66,6 +67,7 @@ Json surface_json(const Surface& surface, bool with_thickness) {
     if (with_thickness) object["thickness_mm"] = surface.thickness_mm;
     write_medium(object, surface.medium_after);
     object["semi_diameter_mm"] = surface.semi_diameter_mm;
+    if (surface.semi_diameter_sized) object["semi_diameter_sized"] = true;
     if (!std::holds_alternative<Uncoated>(surface.coating))
         object["coating"] = write_coating(surface.coating);
     if (!surface.comment.empty()) object["comment"] = surface.comment;
@@ -80,6 +82,9 @@ Json configuration_json(const Configuration& configuration) {
         thicknesses[fmt::format("{}", row + 1)] = thickness_mm;
     if (!thicknesses.empty()) object["thickness_mm"] = std::move(thicknesses);
     put(object, "f_number", configuration.f_number);
+    put(object, "stop_semi_diameter_mm", configuration.stop_semi_diameter_mm);
+    if (configuration.published != Published{})
+        object["published"] = published_json(configuration.published);
     restore_unknown(object, configuration.unknown);
     return object;
 }

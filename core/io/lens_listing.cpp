@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/io/lens_json.h"
+#include "core/io/coating_json.h"
 #include "core/io/medium_json.h"
 #include "core/units.h"
 

@@ -1,5 +1,6 @@
 #include "core/io/sensor_json.h"
 
+#include "core/io/coating_json.h"
 #include "core/io/medium_json.h"
 
 namespace ghostlight {

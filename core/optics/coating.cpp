@@ -8,7 +8,8 @@
 #include <numbers>
 
 #include "core/error.h"
-#include "core/optics/thin_film.h"
+#include "core/optics/trace_path.h"
+#include "core/units.h"
 
 namespace ghostlight {
 namespace {
@@ -50,10 +51,73 @@ struct LayersAt {
 
     std::vector<FilmLayer> operator()(const LayerStack& stack) const {
         std::vector<FilmLayer> layers;
-        for (const Layer& layer : stack.layers)
-            layers.push_back(
-                layer_at(refractive_index(layer.medium, nm), layer.extinction, layer.thickness_nm));
+        for (const Layer& layer : stack.layers) {
+            const double k = layer.extinction_table.empty() ? layer.extinction
+                                                            : linear_at(layer.extinction_table, nm);
+            layers.push_back(layer_at(refractive_index(layer.medium, nm), k, layer.thickness_nm));
+        }
+        if (stack.from_air && !is_air(before) && is_air(after)) std::ranges::reverse(layers);
         return layers;
+    }
+
+    std::vector<FilmLayer> operator()(const MeasuredReflectance&) const { return {}; }
+    std::vector<FilmLayer> operator()(const ConstantReflectance&) const { return {}; }
+};
+
+MeasuredShares checked(const MeasuredShares& shares) {
+    // Energy to within what tables are printed with.
+    constexpr double most = 1.0 + 1e-6;
+    const bool in_range = shares.r_s >= 0.0 && shares.r_p >= 0.0 && shares.t_s >= 0.0 &&
+                          shares.t_p >= 0.0 && shares.r_s + shares.t_s <= most &&
+                          shares.r_p + shares.t_p <= most;
+    if (!in_range)
+        throw Error({.problem = "a reflectance is not physical",
+                     .file = {},
+                     .where = {},
+                     .found = fmt::format("R {}, {}, T {}, {} (s, p)", shares.r_s, shares.r_p,
+                                          shares.t_s, shares.t_p),
+                     .expected = "R ≥ 0, T ≥ 0, R + T ≤ 1"});
+    return shares;
+}
+
+struct AnglesAt {
+    double nm;
+
+    template <class LayeredCoating>
+    std::vector<FilmAngle> operator()(const LayeredCoating&) const {
+        return {};
+    }
+
+    std::vector<FilmAngle> operator()(const ConstantReflectance& fixed) const {
+        return {{1.0, checked({fixed.reflectance, fixed.reflectance, fixed.transmittance,
+                               fixed.transmittance})}};
+    }
+
+    std::vector<FilmAngle> operator()(const MeasuredReflectance& table) const {
+        const auto& waves = table.wavelengths_nm;
+        const std::size_t count = table.angles_deg.size();
+        if (waves.empty() || count == 0 || table.shares.size() != waves.size() * count)
+            throw Error({.problem = "a measured coating's table is not complete",
+                         .file = {},
+                         .where = {},
+                         .found = fmt::format("{} values for {} wavelengths and {} angles",
+                                              table.shares.size(), waves.size(), count),
+                         .expected = "a value for every wavelength and angle"});
+        const auto after =
+            static_cast<std::size_t>(std::ranges::upper_bound(waves, nm) - waves.begin());
+        const std::size_t last = waves.size() - 1;
+        const std::size_t low = after == 0 ? 0 : after - 1, high = std::min(after, last);
+        const double share = low == high ? 0.0 : (nm - waves[low]) / (waves[high] - waves[low]);
+        std::vector<FilmAngle> angles;
+        for (std::size_t i = 0; i < count; ++i) {
+            const MeasuredShares a = checked(table.shares[low * count + i]);
+            const MeasuredShares b = checked(table.shares[high * count + i]);
+            auto between = [&](double x, double y) { return x + share * (y - x); };
+            angles.push_back({cos_from_deg(table.angles_deg[i]),
+                              {between(a.r_s, b.r_s), between(a.r_p, b.r_p), between(a.t_s, b.t_s),
+                               between(a.t_p, b.t_p)}});
+        }
+        return angles;
     }
 };
 
@@ -112,6 +176,7 @@ Film film_at(const Coating& coating, const Medium& before, const Medium& after,
     film.n_out = refractive_index(after, wavelength_nm);
     film.wavelength_nm = wavelength_nm;
     film.layers = std::visit(LayersAt{before, after, wavelength_nm}, coating);
+    film.angles = std::visit(AnglesAt{wavelength_nm}, coating);
     return simplified(std::move(film));
 }
 
@@ -122,24 +187,40 @@ Film reversed(const Film& film) {
     return other;
 }
 
-bool is_invisible(const Film& film) { return film.layers.empty() && film.n_in == film.n_out; }
+bool is_invisible(const Film& film) {
+    // Shares that are given hold also where the media are equal, unless they say that all passes.
+    const bool passes = std::ranges::all_of(
+        film.angles, [](const FilmAngle& at) { return at.shares == MeasuredShares{}; });
+    return film.layers.empty() && film.n_in == film.n_out && passes;
+}
 
 bool is_absorbing(const Film& film) {
-    return std::ranges::any_of(film.layers, [](const FilmLayer& layer) { return layer.k > 0.0; });
+    return std::ranges::any_of(film.layers, [](const FilmLayer& layer) { return layer.k > 0.0; }) ||
+           std::ranges::any_of(film.angles, [](const FilmAngle& at) {
+               return at.shares.r_s + at.shares.t_s < 1.0 || at.shares.r_p + at.shares.t_p < 1.0;
+           });
 }
 
 Reflectances reflectances(const Film& film, double cos_incidence) {
     if (is_invisible(film)) return {};
+    auto intensities = [](const Amplitudes<double>& amplitude) {
+        return Reflectances{norm(amplitude.r_s), norm(amplitude.r_p), norm(amplitude.t_s),
+                            norm(amplitude.t_p)};
+    };
+    if (!film.angles.empty()) {
+        const auto angles = angles_at<double>(film);
+        return intensities(given_amplitudes(
+            film.n_in, angles.data(), static_cast<int>(angles.size()), film.n_out, cos_incidence));
+    }
     std::vector<LayerAt<double>> layers;
     for (const FilmLayer& layer : film.layers)
         layers.push_back({layer.n * layer.n - layer.k * layer.k, 2.0 * layer.n * layer.k,
                           2.0 * std::numbers::pi / film.wavelength_nm * layer.thickness_nm});
     const int count = static_cast<int>(layers.size());
-    const auto amplitude =
+    return intensities(
         is_absorbing(film)
             ? film_amplitudes<true>(film.n_in, layers.data(), count, film.n_out, cos_incidence)
-            : film_amplitudes<false>(film.n_in, layers.data(), count, film.n_out, cos_incidence);
-    return {norm(amplitude.r_s), norm(amplitude.r_p), norm(amplitude.t_s), norm(amplitude.t_p)};
+            : film_amplitudes<false>(film.n_in, layers.data(), count, film.n_out, cos_incidence));
 }
 
 Film parse_stack(std::string_view text, double wavelength_nm) {
@@ -180,17 +261,35 @@ Film parse_stack(std::string_view text, double wavelength_nm) {
     return simplified(std::move(film));
 }
 
-std::string describe(const Coating& coating) {
-    if (std::holds_alternative<Uncoated>(coating)) return "none";
-    if (const auto* film = std::get_if<QuarterWave>(&coating)) {
-        const auto* medium = std::get_if<Medium>(&film->layer);
+namespace {
+
+struct Describe {
+    std::string operator()(const Uncoated&) const { return "none"; }
+    std::string operator()(const QuarterWave& film) const {
+        const auto* medium = std::get_if<Medium>(&film.layer);
         std::string text =
-            fmt::format("{} λ/4 {}", medium ? describe_medium(*medium) : "ideal", film->center_nm);
-        if (film->thickness_factor != 1.0) text += fmt::format(" × {}", film->thickness_factor);
+            fmt::format("{} λ/4 {}", medium ? describe_medium(*medium) : "ideal", film.center_nm);
+        if (film.thickness_factor != 1.0) text += fmt::format(" × {}", film.thickness_factor);
         return text;
     }
-    const std::size_t count = std::get<LayerStack>(coating).layers.size();
-    return fmt::format("{} layer{}", count, count == 1 ? "" : "s");
-}
+    std::string operator()(const LayerStack& stack) const {
+        if (!stack.name.empty()) return stack.name;
+        const std::size_t count = stack.layers.size();
+        return fmt::format("{} layer{}", count, count == 1 ? "" : "s");
+    }
+    std::string operator()(const MeasuredReflectance& table) const {
+        return table.name.empty() ? "measured" : table.name;
+    }
+    std::string operator()(const ConstantReflectance& fixed) const {
+        std::string text = fmt::format("R {:.4g} %", 100.0 * fixed.reflectance);
+        if (fixed.transmittance != 1.0 - fixed.reflectance)
+            text += fmt::format(", T {:.4g} %", 100.0 * fixed.transmittance);
+        return text;
+    }
+};
+
+}  // namespace
+
+std::string describe(const Coating& coating) { return std::visit(Describe{}, coating); }
 
 }  // namespace ghostlight

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/optics/dispersion_formula.h"
 #include "core/units.h"
 
 namespace ghostlight {
@@ -16,46 +17,6 @@ namespace {
 constexpr double largest_index = 10.0;
 
 constexpr double inverse_square(double length_um) { return 1.0 / (length_um * length_um); }
-
-double index_squared_or_index(const FormulaGlass& glass, double um, bool& is_squared) {
-    const auto& c = glass.coefficients;
-    const double um2 = um * um;
-    is_squared = true;
-    auto powers = [&](std::size_t first) {
-        double sum = 0.0;
-        for (std::size_t i = first; i + 1 < c.size(); i += 2) sum += c[i] * std::pow(um, c[i + 1]);
-        return sum;
-    };
-    double value = c.empty() ? 0.0 : c[0];
-    switch (glass.formula) {
-        case 1:
-        case 2:
-            value += 1.0;
-            for (std::size_t i = 1; i + 1 < c.size(); i += 2) {
-                const double pole = glass.formula == 1 ? c[i + 1] * c[i + 1] : c[i + 1];
-                value += c[i] * um2 / (um2 - pole);
-            }
-            return value;
-        case 3:
-            return value + powers(1);
-        case 4:
-            for (std::size_t i = 1; i + 3 < c.size() && i < 9; i += 4)
-                value += c[i] * std::pow(um, c[i + 1]) / (um2 - std::pow(c[i + 2], c[i + 3]));
-            return value + powers(9);
-        case 5:
-            is_squared = false;
-            return value + powers(1);
-        case 6:
-            is_squared = false;
-            value += 1.0;
-            for (std::size_t i = 1; i + 1 < c.size(); i += 2)
-                value += c[i] / (c[i + 1] - inverse_square(um));
-            return value;
-        default:
-            throw Error(
-                fmt::format("dispersion formula {} is not known; expected 1 to 6", glass.formula));
-    }
-}
 
 struct IndexAt {
     double nm;
@@ -74,21 +35,16 @@ struct IndexAt {
         return n;
     }
 
-    double operator()(const FormulaGlass& glass) const {
-        const bool below = glass.min_nm > 0.0 && nm < glass.min_nm;
-        const bool above = glass.max_nm > 0.0 && nm > glass.max_nm;
-        if (below || above)
-            throw Error({.problem = fmt::format("glass {} has no index at {} nm", label(), nm),
-                         .file = {},
-                         .where = {},
-                         .found = fmt::format("{} nm", nm),
-                         .expected = fmt::format("a wavelength from {} to {} nm", glass.min_nm,
-                                                 glass.max_nm)});
-        bool is_squared = true;
-        const double value = index_squared_or_index(glass, um_from_nm(nm), is_squared);
-        if (!std::isfinite(value) || value <= 1.0) refuse(value, "the formula has a pole there");
-        const double n = is_squared ? std::sqrt(value) : value;
-        if (n > largest_index) refuse(n, "no glass has such an index");
+    double operator()(const FormulaGlass& glass) const { return of_formula(glass); }
+    double operator()(const AgfGlass& glass) const { return of_formula(glass); }
+
+    double operator()(const TabulatedGlass& glass) const {
+        if (glass.index.empty()) refuse(0.0, "its table is empty");
+        if (!glass.held_beyond)
+            require_range(glass.index.front().wavelength_nm, glass.index.back().wavelength_nm);
+        // A metal's index may be below 1, and far beyond a glass's.
+        const double n = smooth_at(glass.index, nm);
+        if (!(n > 0.0) || !std::isfinite(n)) refuse(n, "the table has no usable index there");
         return n;
     }
 
@@ -100,6 +56,28 @@ struct IndexAt {
                      .expected = "a glass of the catalogue, a model glass (nd, Vd) or an index"});
     }
 
+    template <class Formula>
+    double of_formula(const Formula& glass) const {
+        require_range(glass.min_nm, glass.max_nm);
+        const FormulaValue found = formula_value(glass, um_from_nm(nm));
+        if (!std::isfinite(found.value) || found.value <= 1.0)
+            refuse(found.value, "the formula has a pole there");
+        const double n = found.is_squared ? std::sqrt(found.value) : found.value;
+        if (n > largest_index) refuse(n, "no glass has such an index");
+        return n;
+    }
+
+    void require_range(double min_nm, double max_nm) const {
+        const bool below = min_nm > 0.0 && nm < min_nm;
+        const bool above = max_nm > 0.0 && nm > max_nm;
+        if (below || above)
+            throw Error({.problem = fmt::format("glass {} has no index at {} nm", label(), nm),
+                         .file = {},
+                         .where = {},
+                         .found = fmt::format("{} nm", nm),
+                         .expected = fmt::format("a wavelength from {} to {} nm", min_nm, max_nm)});
+    }
+
     std::string label() const { return name.empty() ? "without a name" : "'" + name + "'"; }
 
     [[noreturn]] void refuse(double value, const char* why) const {
@@ -109,6 +87,25 @@ struct IndexAt {
              .where = {},
              .found = fmt::format("{}", value),
              .expected = "an index from 1 to 10"});
+    }
+};
+
+struct RangeOf {
+    using Range = std::optional<std::pair<double, double>>;
+    static constexpr double no_end = std::numeric_limits<double>::infinity();
+
+    Range operator()(const ConstantIndex&) const { return Range({0.0, no_end}); }
+    Range operator()(const ModelGlass&) const { return Range({0.0, no_end}); }
+    Range operator()(const UnknownGlass&) const { return std::nullopt; }
+    Range operator()(const FormulaGlass& glass) const { return of_formula(glass); }
+    Range operator()(const AgfGlass& glass) const { return of_formula(glass); }
+    Range operator()(const TabulatedGlass& glass) const {
+        if (glass.held_beyond || glass.index.empty()) return Range({0.0, no_end});
+        return Range({glass.index.front().wavelength_nm, glass.index.back().wavelength_nm});
+    }
+    template <class Formula>
+    static Range of_formula(const Formula& glass) {
+        return Range({glass.min_nm, glass.max_nm > 0.0 ? glass.max_nm : no_end});
     }
 };
 
@@ -129,6 +126,10 @@ double refractive_index(const Medium& medium, double wavelength_nm) {
     return std::visit(IndexAt{wavelength_nm, medium.name}, medium.dispersion);
 }
 
+std::optional<std::pair<double, double>> wavelength_range_nm(const Medium& medium) {
+    return std::visit(RangeOf{}, medium.dispersion);
+}
+
 double abbe_number(const Medium& medium) {
     const double spread = refractive_index(medium, f_line_nm) - refractive_index(medium, c_line_nm);
     if (spread == 0.0) return std::numeric_limits<double>::infinity();
@@ -140,6 +141,26 @@ std::string describe(const Medium& medium) {
     if (is_air(medium)) return "air";
     if (std::holds_alternative<UnknownGlass>(medium.dispersion)) return "not known";
     return fmt::format("n {:.4f}", refractive_index(medium, d_line_nm));
+}
+
+double internal_transmittance(const Medium& medium, double wavelength_nm, double length_mm) {
+    if (medium.transmittance.empty()) return 1.0;
+    // A catalogue's 0 means less than it could print.
+    constexpr double least_share = 1e-10;
+    SpectralTable absorption_per_mm;
+    // Several thicknesses at one wavelength: a thick piece tells small losses better, until too
+    // little comes through.
+    constexpr double telling_share = 0.1;
+    for (const InternalTransmittance& at : medium.transmittance) {
+        const double loss = -std::log(std::max(at.share, least_share)) / at.thickness_mm;
+        const bool again = !absorption_per_mm.empty() &&
+                           absorption_per_mm.back().wavelength_nm == at.wavelength_nm;
+        if (!again)
+            absorption_per_mm.push_back({at.wavelength_nm, loss});
+        else if (at.share >= telling_share)
+            absorption_per_mm.back().value = loss;
+    }
+    return std::exp(-linear_at(absorption_per_mm, wavelength_nm) * length_mm);
 }
 
 bool is_air(const Medium& medium) {

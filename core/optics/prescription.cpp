@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 
@@ -30,6 +31,19 @@ struct CurvatureOf {
 
 double curvature_per_mm(const BaseCurve& curve) { return std::visit(CurvatureOf{}, curve); }
 
+double sag_mm(const Surface& surface, double y_mm) {
+    const double c = curvature_per_mm(surface.curve);
+    const double bend = (1.0 + surface.conic) * c * c;
+    const double y2 = bend * y_mm * y_mm > 1.0 ? 1.0 / bend : y_mm * y_mm;
+    double sag = c * y2 / (1.0 + std::sqrt(std::max(0.0, 1.0 - bend * y2)));
+    double power = y2 * y2;
+    for (const double term : surface.aspheric) {
+        sag += term * power;
+        power *= y2;
+    }
+    return sag;
+}
+
 const Medium& medium_before(const Prescription& lens, std::size_t row) {
     static const Medium air;
     return row == 0 ? air : lens.surfaces.at(row - 1).medium_after;
@@ -50,9 +64,13 @@ Prescription configured(const Prescription& lens, std::string_view configuration
                          .expected = fmt::format("1 to {}", result.surfaces.size())});
         result.surfaces[row].thickness_mm = thickness_mm;
     }
-    if (found->f_number) {
-        result.stop.f_number = found->f_number;
+    // A width without an f-number is the stop of this position, whatever the lens as listed has.
+    if (found->stop_semi_diameter_mm) {
+        result.stop.semi_diameter_mm = found->stop_semi_diameter_mm;
+        result.stop.f_number.reset();
     }
+    if (found->f_number) result.stop.f_number = found->f_number;
+    if (found->published != Published{}) result.published = found->published;
     return result;
 }
 

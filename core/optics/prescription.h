@@ -41,11 +41,17 @@ struct Surface {
     double thickness_mm = 0.0;       ///< to the next vertex; the last one to the sensor
     Medium medium_after;             ///< air by default
     double semi_diameter_mm = 10.0;  ///< clear radius; of the stop's row, its listed radius
+    /// The radius is not the source's: sized to let the direct beam through.
+    bool semi_diameter_sized = false;
     Coating coating = Uncoated{};
     std::string comment;
     UnknownFields unknown;
     bool operator==(const Surface&) const = default;
 };
+
+/// z of a surface relative to its vertex at a height; beyond the end of a sphere or an ellipsoid,
+/// of that end.
+double sag_mm(const Surface& surface, double y_mm);
 
 /// The aperture stop: which row, how far it is closed, and its blades.
 struct Stop {
@@ -93,20 +99,22 @@ struct Sensor {
     bool operator==(const Sensor&) const = default;
 };
 
-/// A zoom or focus position: what it overrides.
-struct Configuration {
-    std::string name;
-    std::map<std::size_t, double> thickness_mm;  ///< row from 0 → thickness
-    std::optional<double> f_number;
-    UnknownFields unknown;
-    bool operator==(const Configuration&) const = default;
-};
-
 /// What the source states; not used in any computation.
 struct Published {
     std::optional<double> efl_mm, f_number, bfd_mm, half_field_deg;
     UnknownFields unknown;
     bool operator==(const Published&) const = default;
+};
+
+/// A zoom or focus position: what it overrides.
+struct Configuration {
+    std::string name;
+    std::map<std::size_t, double> thickness_mm;  ///< row from 0 → thickness
+    std::optional<double> f_number;              ///< wins over stop_semi_diameter_mm
+    std::optional<double> stop_semi_diameter_mm;
+    Published published;  ///< of this position
+    UnknownFields unknown;
+    bool operator==(const Configuration&) const = default;
 };
 
 /// A lens, as a person edits it and as a file holds it.

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <vector>
 
 #include "core/ghosts/ghost_path.h"
+#include "core/optics/film_angles.h"
 #include "core/optics/optical_system.h"
 #include "core/optics/thin_film.h"
 
@@ -23,6 +25,8 @@ struct TraceStep {
     T sense;        ///< nominal direction of travel before the event, ±1
     int first_aspheric, aspheric_count;
     int first_layer, layer_count;
+    const AngleAt<T>* angles;  ///< of a film whose shares are given instead of layers, else null
+    int angle_count;
     int surface;
     bool reflects, at_stop, absorbing, invisible;
     bool spherical;    ///< or plane: the normal comes out with unit length
@@ -36,9 +40,21 @@ struct TracePath {
     std::vector<TraceStep<T>> steps;
     std::vector<T> aspheric;  ///< coefficients A4, A6, … of all aspheric steps
     std::vector<LayerAt<T>> layers;
+    /// What the steps' `angles` point to: copies of a path share it, so that they stay valid.
+    std::vector<std::shared_ptr<const std::vector<AngleAt<T>>>> angles;
     T sensor_gap_mm{};  ///< last vertex z minus the sensor's
     int stop_crossings = 0;
 };
+
+/// The given shares of a film on the scalar T.
+template <class T>
+std::vector<AngleAt<T>> angles_at(const Film& film) {
+    std::vector<AngleAt<T>> angles;
+    for (const FilmAngle& at : film.angles)
+        angles.push_back({T(at.cos_thin), T(at.shares.r_s), T(at.shares.r_p), T(at.shares.t_s),
+                          T(at.shares.t_p)});
+    return angles;
+}
 
 template <class T>
 TracePath<T> trace_path(const OpticalSystem& system, const GhostPath& ghost) {
@@ -67,6 +83,12 @@ TracePath<T> trace_path(const OpticalSystem& system, const GhostPath& ghost) {
             path.layers.push_back(
                 {T(layer.n * layer.n - layer.k * layer.k), T(2.0 * layer.n * layer.k),
                  T(2.0 * std::numbers::pi / film.wavelength_nm * layer.thickness_nm)});
+        if (!film.angles.empty()) {
+            path.angles.push_back(
+                std::make_shared<const std::vector<AngleAt<T>>>(angles_at<T>(film)));
+            step.angles = path.angles.back()->data();
+            step.angle_count = static_cast<int>(film.angles.size());
+        }
         step.surface = static_cast<int>(event.surface);
         step.reflects = event.reflects;
         step.at_stop = event.surface == system.stop;

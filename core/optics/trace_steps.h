@@ -264,6 +264,9 @@ GHOSTLIGHT_INLINE Amplitudes<V> amplitudes(const TraceStep<T>& step, const Layer
         const V r{step.uniform_r}, t{step.uniform_t};
         return {{r, zero}, {V(-r), zero}, {t, zero}, {t, zero}};
     }
+    if (step.angles != nullptr)
+        return given_amplitudes(step.n_in, step.angles, step.angle_count, step.n_out,
+                                cos_incidence);
     const LayerAt<T>* own = layers + step.first_layer;
     return step.absorbing
                ? film_amplitudes<true>(step.n_in, own, step.layer_count, step.n_out, cos_incidence)

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/optics/dispersion_formula.h"
 #include "core/optics/prescription.h"
 
 namespace ghostlight {
@@ -14,6 +15,7 @@ namespace {
 constexpr double largest_length_mm = 1e6;
 constexpr double smallest_radius_mm = 1e-6;
 constexpr double largest_index = 10.0;
+constexpr double largest_layer_index = 1000.0;
 constexpr double largest_conic = 1e9;
 constexpr std::size_t most_surfaces = 1000;
 constexpr std::size_t most_aspheric_terms = 20;
@@ -74,16 +76,35 @@ struct CheckDispersion {
                 "not a usable Abbe number", "an Abbe number above 0");
     }
     void operator()(const FormulaGlass& glass) const {
-        if (glass.formula < 1 || glass.formula > 6)
-            refuse(where + ".formula.number", "not a known dispersion formula",
-                   fmt::format("{}", glass.formula), "1 to 6");
+        closed_form(where + ".formula", glass, last_formula);
+    }
+    void operator()(const AgfGlass& glass) const {
+        closed_form(where + ".agf", glass, last_agf_formula);
+    }
+    void operator()(const TabulatedGlass& glass) const {
+        if (!has_rising_wavelengths(glass.index))
+            refuse(where + ".table.nm", "not a usable table of indices",
+                   fmt::format("{} entries", glass.index.size()),
+                   "at least one entry, wavelengths above 0 and rising");
+        // Metals, as layers, go below 1 and beyond what glasses have.
+        const double largest = smallest_index > 0.0 ? largest_index : largest_layer_index;
+        for (const SpectralValue& entry : glass.index)
+            require(
+                entry.value >= smallest_index && entry.value > 0.0 && entry.value <= largest,
+                where + ".table.n", entry.value, "not a usable index",
+                smallest_index > 0.0 ? "an index from 1 to 10" : "an index above 0, up to 1000");
+    }
+    template <class Glass>
+    void closed_form(const std::string& field, const Glass& glass, int last) const {
+        if (glass.formula < 1 || glass.formula > last)
+            refuse(field + ".number", "not a known dispersion formula",
+                   fmt::format("{}", glass.formula), fmt::format("1 to {}", last));
         if (glass.coefficients.empty())
-            refuse(where + ".formula.coefficients", "no coefficients", "none", "at least one");
-        for (const double c : glass.coefficients)
-            require_finite(where + ".formula.coefficients", c);
-        require_finite(where + ".formula.range_nm", glass.min_nm);
-        require(!std::isnan(glass.max_nm), where + ".formula.range_nm", glass.max_nm,
-                "not a number", "a wavelength in nm");
+            refuse(field + ".coefficients", "no coefficients", "none", "at least one");
+        for (const double c : glass.coefficients) require_finite(field + ".coefficients", c);
+        require_finite(field + ".range_nm", glass.min_nm);
+        require(!std::isnan(glass.max_nm), field + ".range_nm", glass.max_nm, "not a number",
+                "a wavelength in nm");
     }
     // It can be opened and mended, though not traced: refractive_index() says so.
     void operator()(const UnknownGlass&) const {}
@@ -96,6 +117,12 @@ struct CheckDispersion {
 
 void check_medium(const Medium& medium, const std::string& where, double smallest_index) {
     std::visit(CheckDispersion{where, smallest_index}, medium.dispersion);
+    for (const InternalTransmittance& at : medium.transmittance)
+        require(at.wavelength_nm > 0.0 && at.share >= 0.0 && at.share <= 1.0 &&
+                    at.thickness_mm > 0.0 &&
+                    std::isfinite(at.wavelength_nm + at.share + at.thickness_mm),
+                where + ".transmittance", at.share, "not a usable transmittance",
+                "[nm, share from 0 to 1, mm], wavelength and thickness above 0");
 }
 
 struct CheckCoating {
@@ -122,7 +149,45 @@ struct CheckCoating {
                     "0 nm or more");
             require(layer.extinction >= 0.0 && std::isfinite(layer.extinction), field + ".k",
                     layer.extinction, "not a usable extinction", "0 or more (0 = clear)");
+            if (!layer.extinction_table.empty() && !has_rising_wavelengths(layer.extinction_table))
+                refuse(field + ".k.nm", "not a usable table of extinctions",
+                       fmt::format("{} entries", layer.extinction_table.size()),
+                       "wavelengths above 0 and rising");
+            for (const SpectralValue& entry : layer.extinction_table)
+                require(entry.value >= 0.0 && std::isfinite(entry.value), field + ".k.k",
+                        entry.value, "not a usable extinction", "0 or more (0 = clear)");
         }
+    }
+    void operator()(const MeasuredReflectance& table) const {
+        const std::string field = where + ".measured";
+        check_axis(table.wavelengths_nm, field + ".nm", 1e-9, 1e9, "wavelengths above 0, rising");
+        check_axis(table.angles_deg, field + ".angles_deg", 0.0, 90.0,
+                   "angles from 0 to 90 degrees, rising");
+        if (table.shares.size() != table.wavelengths_nm.size() * table.angles_deg.size())
+            refuse(field, "the table is not complete", fmt::format("{}", table.shares.size()),
+                   "a value for every wavelength and angle");
+        for (const MeasuredShares& at : table.shares) {
+            check_shares(field, at.r_s, at.t_s);
+            check_shares(field, at.r_p, at.t_p);
+        }
+    }
+    void operator()(const ConstantReflectance& fixed) const {
+        check_shares(where + ".constant", fixed.reflectance, fixed.transmittance);
+    }
+    void check_axis(const std::vector<double>& values, const std::string& field, double least,
+                    double most, std::string_view expected) const {
+        if (values.empty()) refuse(field, "no values", "none", expected);
+        double before = -1.0;
+        for (const double value : values) {
+            require(value > before && value >= least && value <= most, field, value,
+                    "not a usable value", expected);
+            before = value;
+        }
+    }
+    void check_shares(const std::string& field, double r, double t) const {
+        // Energy to within what tables are printed with.
+        require(r >= 0.0 && t >= 0.0 && r + t <= 1.0 + 1e-6, field, r + t,
+                "not a usable reflectance and transmittance", "R ≥ 0, T ≥ 0, R + T ≤ 1");
     }
 };
 
@@ -201,6 +266,8 @@ void check_configurations(const Prescription& lens) {
             require_thickness(fmt::format("{}.thickness_mm.{}", where, row + 1), thickness_mm);
         }
         if (each.f_number) require_f_number(where + ".f_number", *each.f_number);
+        if (each.stop_semi_diameter_mm)
+            require_length(where + ".stop_semi_diameter_mm", *each.stop_semi_diameter_mm);
     }
 }
 

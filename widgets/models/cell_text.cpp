@@ -3,9 +3,12 @@
 #include <QRegularExpression>
 #include <QStringList>
 
+#include <optional>
 #include <utility>
 
 #include "core/error.h"
+#include "core/io/coating_library.h"
+#include "core/io/glass_library.h"
 #include "core/units.h"
 #include "widgets/number_text.h"
 
@@ -70,6 +73,66 @@ Layer read_layer(const QString& text, const GlassCatalog& catalog) {
         refuse("cannot read the layer", text, expected);
     }
     return {read_layer_medium(index[0], catalog), *thickness, *extinction};
+}
+
+/// The library's name of a coating, where it has that very coating; else nothing.
+QString library_name(const std::string& name, const Coating& coating) {
+    const Coating* known = name.empty() ? nullptr : find_coating(name);
+    return known != nullptr && *known == coating ? QString::fromStdString(name) : QString();
+}
+
+QString text_of_stack(const LayerStack& stack) {
+    if (const QString name = library_name(stack.name, stack); !name.isEmpty()) {
+        return name;
+    }
+    if (stack.layers.empty()) {
+        return "none";
+    }
+    QStringList parts;
+    if (stack.from_air) {
+        parts << "air";
+    }
+    for (const Layer& layer : stack.layers) {
+        QString part = text_of_layer_medium(layer.medium);
+        if (layer.extinction != 0.0) {
+            part += ',' + shortest(layer.extinction);
+        }
+        parts << part + ':' + shortest(layer.thickness_nm);
+    }
+    return parts.join(" | ");
+}
+
+struct CoatingText {
+    QString operator()(const Uncoated&) const { return "none"; }
+    QString operator()(const QuarterWave& quarter) const { return text_of_quarter_wave(quarter); }
+    QString operator()(const LayerStack& stack) const { return text_of_stack(stack); }
+    QString operator()(const MeasuredReflectance& table) const {
+        return QString::fromStdString(table.name.empty() ? "measured" : table.name);
+    }
+    QString operator()(const ConstantReflectance& fixed) const {
+        QString text = "R=" + shortest(fixed.reflectance);
+        if (fixed.transmittance != 1.0 - fixed.reflectance) {
+            text += ", T=" + shortest(fixed.transmittance);
+        }
+        return text;
+    }
+};
+
+/// "R=0.05" or "R=0.05, T=0.9": shares, the same at every wavelength and angle.
+std::optional<ConstantReflectance> read_constant(const QString& plain) {
+    static const QRegularExpression form("^R\\s*=\\s*([^,]+?)\\s*(?:,\\s*T\\s*=\\s*(.+))?$",
+                                         QRegularExpression::CaseInsensitiveOption);
+    const auto match = form.match(plain);
+    if (!match.hasMatch()) {
+        return std::nullopt;
+    }
+    const auto r = parse_number(match.captured(1));
+    const auto t = match.captured(2).isEmpty() ? std::optional(1.0 - r.value_or(0.0))
+                                               : parse_number(match.captured(2));
+    if (!r || !t || *r < 0.0 || *t < 0.0 || *r + *t > 1.0) {
+        refuse("not a usable reflectance", plain, "shares R=0.05, T=0.9 with R + T up to 1");
+    }
+    return ConstantReflectance{*r, *t};
 }
 
 }  // namespace
@@ -144,6 +207,9 @@ Medium read_medium(const QString& text, const GlassCatalog& catalog) {
     if (const Medium* known = catalog.find(plain.toStdString())) {
         return *known;
     }
+    if (const auto known = find_glass(plain.toStdString(), {})) {
+        return known->glass.medium;
+    }
     const QString expected = "a catalogue name, 'nd / Vd' or an index; empty for air";
     const QStringList parts = plain.split('/');
     const auto nd = parse_number(parts[0]);
@@ -205,29 +271,18 @@ std::vector<double> read_aspheric(const QString& text) {
     return terms;
 }
 
-QString text_of_coating(const Coating& coating) {
-    if (const auto* quarter = std::get_if<QuarterWave>(&coating)) {
-        return text_of_quarter_wave(*quarter);
-    }
-    const auto* stack = std::get_if<LayerStack>(&coating);
-    if (stack == nullptr || stack->layers.empty()) {
-        return "none";
-    }
-    QStringList parts;
-    for (const Layer& layer : stack->layers) {
-        QString part = text_of_layer_medium(layer.medium);
-        if (layer.extinction != 0.0) {
-            part += ',' + shortest(layer.extinction);
-        }
-        parts << part + ':' + shortest(layer.thickness_nm);
-    }
-    return parts.join(" | ");
-}
+QString text_of_coating(const Coating& coating) { return std::visit(CoatingText{}, coating); }
 
 Coating read_coating(const QString& text, const GlassCatalog& catalog) {
     const QString plain = subscripts_plain(text.trimmed());
     if (plain.isEmpty() || plain.compare("none", Qt::CaseInsensitive) == 0) {
         return Uncoated{};
+    }
+    if (const Coating* known = find_coating(plain.toStdString())) {
+        return *known;
+    }
+    if (const auto constant = read_constant(plain)) {
+        return *constant;
     }
     static const QRegularExpression quarter_wave(
         "^(.*?)\\s*(?:λ/4|l/4|qw|quarter[ -]?wave)\\s*([^\\s×x*]+)\\s*(?:nm)?"
@@ -236,12 +291,17 @@ Coating read_coating(const QString& text, const GlassCatalog& catalog) {
     const auto match = quarter_wave.match(plain);
     if (!match.hasMatch()) {
         if (!plain.contains(':')) {
-            refuse(
-                "cannot read the coating", text,
-                "none, MgF2 λ/4 550, 1.38 λ/4 550, ideal λ/4 550, or a stack 1.38:96.4 | 2.1:50");
+            refuse("cannot read the coating", text,
+                   "none, MgF2 λ/4 550, 1.38 λ/4 550, ideal λ/4 550, a stack 1.38:96.4 | 2.1:50, "
+                   "R=0.05, or a name of the coating library");
         }
         LayerStack stack;
         for (const QString& part : plain.split('|')) {
+            // A stack listed from the air, whichever side of the surface that is.
+            if (stack.layers.empty() && part.trimmed().compare("air", Qt::CaseInsensitive) == 0) {
+                stack.from_air = true;
+                continue;
+            }
             stack.layers.push_back(read_layer(part, catalog));
         }
         return stack;

@@ -25,7 +25,8 @@ Medium read_medium(const QString& text, const GlassCatalog& catalog);
 QString text_of_aspheric(const std::vector<double>& terms);
 std::vector<double> read_aspheric(const QString& text);
 
-/// "none", "MgF2 λ/4 550", "1.38 λ/4 550 ×1.05", "ideal λ/4 550", "1.38:96.4 | 2.1,0.01:50".
+/// "none", "MgF2 λ/4 550", "1.38 λ/4 550 ×1.05", "ideal λ/4 550", "1.38:96.4 | 2.1,0.01:50" from
+/// the front, "air | 1.38:96.4" from the air, "R=0.05", or a name of the coating library.
 QString text_of_coating(const Coating& coating);
 Coating read_coating(const QString& text, const GlassCatalog& catalog);
 

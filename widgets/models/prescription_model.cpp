@@ -274,6 +274,7 @@ Prescription PrescriptionModel::edited(const QModelIndex& index, const QString& 
             break;
         case semi_diameter:
             surface.semi_diameter_mm = read_positive(text, "a semi-diameter in mm, above 0");
+            surface.semi_diameter_sized = false;
             break;
         case conic:
             surface.conic = text.trimmed().isEmpty() ? 0.0 : read_number(text, "a conic constant");

@@ -64,6 +64,8 @@ Prescription rich_lens() {
     lens.stop.blade_curvature = 0.25;
     lens.sensor = {.width_mm = 23.6, .height_mm = 15.7, .at_paraxial_focus = false, .unknown = {}};
     lens.configurations[0].f_number = 4.0;
+    lens.configurations[0].stop_semi_diameter_mm = 7.5;
+    lens.configurations[0].published.efl_mm = 51.0;
     return lens;
 }
 
@@ -274,12 +276,12 @@ const Fault faults[] = {
     {"\"model\": {\"nd\": 1.5, \"vd\": 60}", "\"formula\": [1]", "surfaces[1].formula", "[1]",
      "coefficients"},
     {"\"model\": {\"nd\": 1.5, \"vd\": 60}", "\"formula\": {\"coefficients\": [1]}",
-     "surfaces[1].formula.number", "nothing", "1 to 6"},
-    {"\"model\": {\"nd\": 1.5, \"vd\": 60}", "\"formula\": {\"number\": 7, \"coefficients\": [1]}",
-     "surfaces[1].formula.number", "7", "1 to 6"},
+     "surfaces[1].formula.number", "nothing", "1 to 9"},
+    {"\"model\": {\"nd\": 1.5, \"vd\": 60}", "\"formula\": {\"number\": 10, \"coefficients\": [1]}",
+     "surfaces[1].formula.number", "10", "1 to 9"},
     {"\"model\": {\"nd\": 1.5, \"vd\": 60}",
      "\"formula\": {\"number\": 2.5, \"coefficients\": [1]}", "surfaces[1].formula.number", "2.5",
-     "1 to 6"},
+     "1 to 9"},
     {"\"model\": {\"nd\": 1.5, \"vd\": 60}", "\"formula\": {\"number\": 2}",
      "surfaces[1].formula.coefficients", "nothing", "array"},
     {"\"model\": {\"nd\": 1.5, \"vd\": 60}",

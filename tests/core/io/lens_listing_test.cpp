@@ -205,7 +205,7 @@ const Fault faults[] = {
     {"\"vd\": 64.17", "\"glass\": \"air\"", "surfaces[1].nd", "1.5168", "1"},
     {"\"vd\": 64.17", "\"sellmeier\": 2", "surfaces[1].sellmeier", "2", "coefficients"},
     {"\"vd\": 64.17", "\"sellmeier\": {\"coefficients\": [1]}", "surfaces[1].sellmeier.formula",
-     "nothing", "1 to 6"},
+     "nothing", "1 to 9"},
     {"\"vd\": 64.17", "\"sellmeier\": {\"formula\": 2, \"coefficients\": [0, 1]}",
      "surfaces[1].sellmeier.coefficients", "[0, 1]", "odd"},
     {"\"vd\": 64.17", "\"sellmeier\": {\"formula\": 2, \"coefficients\": [0, 1, \"x\"]}",

@@ -77,6 +77,20 @@ TEST(Prescription, ConfigurationOverridesThicknessesAndStop) {
     EXPECT_EQ(configured(small_lens(), ""), listed);
 }
 
+/// Its own width replaces the lens's f-number; its own f-number wins over both.
+TEST(Prescription, ConfigurationStatesItsStopsWidthAndWhatIsPublished) {
+    Prescription lens = small_lens();
+    lens.stop.f_number = 4.0;
+    lens.configurations[0].stop_semi_diameter_mm = 3.0;
+    lens.configurations[0].published.efl_mm = 70.0;
+    lens.configurations[1].stop_semi_diameter_mm = 3.0;
+    EXPECT_FALSE(configured(lens, "near").stop.f_number);
+    EXPECT_EQ(configured(lens, "near").stop.semi_diameter_mm, 3.0);
+    EXPECT_EQ(configured(lens, "near").published.efl_mm, 70.0);
+    EXPECT_EQ(configured(lens, "far").stop.f_number, 8.0);
+    EXPECT_EQ(configured(lens, "far").published, lens.published);
+}
+
 TEST(Prescription, UnknownConfigurationNamesTheKnownOnes) {
     const Error::Parts error = error_of([] { configured(small_lens(), "tele"); });
     EXPECT_EQ(error.found, "'tele'");
@@ -151,7 +165,7 @@ TEST(Prescription, EachFaultIsNamedByItsField) {
         {"surfaces[1].formula.number",
          [](auto& lens) {
              lens.surfaces[0].medium_after.dispersion =
-                 FormulaGlass{.formula = 7, .coefficients = {1.0}};
+                 FormulaGlass{.formula = 10, .coefficients = {1.0}};
          }},
         {"surfaces[1].formula.coefficients",
          [](auto& lens) { lens.surfaces[0].medium_after.dispersion = FormulaGlass{}; }},
@@ -196,6 +210,8 @@ TEST(Prescription, EachFaultIsNamedByItsField) {
         {"configurations[2].thickness_mm.1",
          [](auto& lens) { lens.configurations[1].thickness_mm[0] = -1.0; }},
         {"configurations[1].f_number", [](auto& lens) { lens.configurations[0].f_number = -1; }},
+        {"configurations[1].stop_semi_diameter_mm",
+         [](auto& lens) { lens.configurations[0].stop_semi_diameter_mm = 0.0; }},
     };
     for (const Refusal& refusal : refusals) {
         SCOPED_TRACE(refusal.where);

@@ -83,6 +83,16 @@ TEST(CellText, CoatingsAsPeopleWriteThem) {
     EXPECT_EQ(read_coating("mgf2 qw 550 nm", catalog), Coating(QuarterWave{}));
     EXPECT_EQ(read_coating("λ/4 550", catalog), Coating(QuarterWave{}));
     EXPECT_TRUE(std::holds_alternative<LayerStack>(read_coating("1.38:96.4 | 2.1:50", catalog)));
+    // A name of the library, as it is typed and as it is shown.
+    const Coating v_coat = read_coating("V-Coat", catalog);
+    EXPECT_EQ(text_of_coating(v_coat), "v-coat");
+    EXPECT_EQ(read_coating("r = 0.05, t=0.9", catalog), Coating(ConstantReflectance{0.05, 0.9}));
+    for (const Coating& coating :
+         {Coating(ConstantReflectance{0.05, 0.95}), Coating(ConstantReflectance{0.05, 0.9}),
+          Coating(LayerStack{{{Medium{{}, ConstantIndex{1.38}}, 96.4, 0.0}}, true})}) {
+        EXPECT_EQ(read_coating(text_of_coating(coating), catalog), coating);
+    }
+    EXPECT_THROW(read_coating("R=0.5, T=0.6", catalog), Error);
 }
 
 TEST(CellText, CoatingRefusals) {
