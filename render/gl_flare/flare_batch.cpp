@@ -8,7 +8,7 @@
 namespace ghostlight {
 namespace {
 
-/// Nodes of a batch: 64 MiB of them, half of what every storage block may hold.
+/// Nodes of a batch of several ghosts: 64 MiB of them.
 constexpr std::size_t most_nodes = std::size_t{1} << 20;
 
 [[noreturn]] void refuse(const char* what, std::size_t found, std::size_t most) {
@@ -176,15 +176,16 @@ class Packer {
 
 LensBlock lens_block(const FlareScene& scene) {
     LensBlock block;
-    const std::size_t count = scene.system().surfaces.size();
+    const std::size_t count = turning_count(scene.system());
     if (2 * count * scene.geometry.size() > block_entries)
         refuse("surfaces at each geometry wavelength", count * scene.geometry.size(),
                block_entries / 2);
     std::vector<float> terms;
     std::vector<int> first_terms;
-    for (const SurfaceAt& surface : scene.system().surfaces) {
+    for (std::size_t k = 0; k < count; ++k) {
         first_terms.push_back(static_cast<int>(terms.size()));
-        for (const double a : surface.aspheric) terms.push_back(static_cast<float>(a));
+        for (const double a : surface_at(scene.system(), k).aspheric)
+            terms.push_back(static_cast<float>(a));
     }
     if (terms.size() > 4 * block_entries) refuse("aspheric terms", terms.size(), 4 * block_entries);
     terms.resize((terms.size() + 3) / 4 * 4);
@@ -194,7 +195,7 @@ LensBlock lens_block(const FlareScene& scene) {
         block.first_entry.push_back(static_cast<std::int32_t>(block.surfaces.size()));
         double z = 0.0;
         for (std::size_t k = 0; k < count; ++k) {
-            const SurfaceAt& s = system.surfaces[k];
+            const SurfaceAt& s = surface_at(system, k);
             block.surfaces.push_back({static_cast<float>(s.curvature_per_mm),
                                       static_cast<float>(s.conic),
                                       static_cast<float>(1.0 / s.semi_diameter_mm),
@@ -204,7 +205,8 @@ LensBlock lens_block(const FlareScene& scene) {
                                       static_cast<float>(s.aspheric.size())});
             z = s.vertex_z_mm;
         }
-        block.sensor_gap_mm = static_cast<float>(z - system.sensor_z_mm);
+        block.sensor_gap_mm =
+            static_cast<float>(system.surfaces.back().vertex_z_mm - system.sensor_z_mm);
     }
     block.surfaces.resize(block_entries);
     block.aspheric_terms.resize(block_entries);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -20,6 +21,8 @@ double ms_since(Clock::time_point began) {
 
 constexpr int least_gl_version = 43;  // compute shaders, storage blocks, indirect draws
 constexpr int vertex_blocks = 3, compute_blocks = 5;
+/// The finest grid of a ghost in the most bands takes 97 MiB of nodes.
+constexpr std::int64_t least_block_bytes = std::int64_t{1} << 27;
 /// A crossing of the stop may be moved so far by the curvature of its map, over the stop's
 /// semi-diameter: beyond this a second difference is a kink.
 constexpr double most_straightened = 0.05;
@@ -63,6 +66,20 @@ void dispatch(std::size_t groups) {
     if (groups > 0) glDispatchCompute(static_cast<GLuint>(groups), 1, 1);
 }
 
+/// The plan traces half of each beam, turned into the y–z plane, about which the rectangle of a
+/// sensor that reflects has to be symmetric (render_flare() takes the method `uniform` then).
+void require_planned(const FlareScene& scene, const FlareRequest& request) {
+    if (!scene.system().sensor_face ||
+        std::abs(std::fmod(request.light.azimuth_deg, 180.0)) == 90.0)
+        return;
+    throw Error({.problem = "a sensor that reflects is not drawn in OpenGL for light beside the "
+                            "vertical plane",
+                 .file = {},
+                 .where = "azimuth",
+                 .found = std::to_string(request.light.azimuth_deg),
+                 .expected = "90 or -90"});
+}
+
 std::string version_name(int version) {
     return std::to_string(version / 10) + "." + std::to_string(version % 10);
 }
@@ -77,6 +94,9 @@ GlOffer gl_offer() {
     if (offer.version >= least_gl_version) {
         glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &offer.vertex_storage_blocks);
         glGetIntegerv(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, &offer.compute_storage_blocks);
+        GLint64 bytes = 0;
+        glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
+        offer.storage_block_bytes = bytes;
     }
     return offer;
 }
@@ -102,6 +122,12 @@ void require_gl_flare(const GlOffer& offer) {
                      .where = offer.renderer,
                      .found = std::to_string(offer.compute_storage_blocks),
                      .expected = std::to_string(compute_blocks)});
+    if (offer.storage_block_bytes < least_block_bytes)
+        throw Error({.problem = "OpenGL's storage blocks are too small for a ghost's rays",
+                     .file = {},
+                     .where = offer.renderer,
+                     .found = std::to_string(offer.storage_block_bytes) + " bytes",
+                     .expected = std::to_string(least_block_bytes)});
 }
 
 GlFlare::GlFlare() {
@@ -132,7 +158,8 @@ void GlFlare::number_sheets(std::size_t count) {
     glBindBuffer(GL_ARRAY_BUFFER, 0);
 }
 
-void GlFlare::trace(const FlareBatch& batch, const FlareDrawing& drawing, float sensor_gap_mm) {
+void GlFlare::trace(const FlareBatch& batch, const FlareDrawing& drawing,
+                    const OpticalSystem& system, float sensor_gap_mm) {
     bundles_.upload(batch.bundles);
     groups_.upload(batch.bundle_groups);
     rays_.reserve(batch.rays * ray_bytes);
@@ -146,6 +173,8 @@ void GlFlare::trace(const FlareBatch& batch, const FlareDrawing& drawing, float 
     set_vec3(trace_, "e1", drawing.beam.e1);
     set_vec3(trace_, "e2", drawing.beam.e2);
     glUniform1f(trace_.uniform("sensor_gap"), sensor_gap_mm);
+    glUniform2f(trace_.uniform("sensor_half"), static_cast<float>(0.5 * system.sensor_width_mm),
+                static_cast<float>(0.5 * system.sensor_height_mm));
     dispatch(batch.bundle_groups.size());
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
@@ -212,6 +241,7 @@ std::optional<GlFlarePicture> GlFlare::draw_to_texture(const FlareScene& scene,
                                                        const FlareRequest& request,
                                                        std::stop_token stop) {
     const auto began = Clock::now();
+    require_planned(scene, request);
     const auto drawing = plan_drawing(scene, request, stop);
     if (!drawing) return std::nullopt;
     GlFlarePicture picture;
@@ -238,7 +268,7 @@ std::optional<GlFlarePicture> GlFlare::draw_to_texture(const FlareScene& scene,
     for (const FlareBatch& batch : batches) {
         if (stop.stop_requested()) break;
         number_sheets(batch.sheets.size());
-        trace(batch, *drawing, lens.sensor_gap_mm);
+        trace(batch, *drawing, scene.system(), lens.sensor_gap_mm);
         place(batch, *drawing);
         draw(batch.draws, *drawing, picture_);
         if (highlights) draw(batch.highlighted, *drawing, highlight_);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -19,6 +20,7 @@ struct GlOffer {
     int version = 0;  ///< as epoxy counts: 43 is 4.3
     int vertex_storage_blocks = 0;
     int compute_storage_blocks = 0;
+    std::int64_t storage_block_bytes = 0;
     std::string renderer;
 };
 /// Of the context that is current.
@@ -59,7 +61,8 @@ class GlFlare {
     std::size_t numbered_sheets_ = 0;
     LevelTargets picture_, highlight_;
 
-    void trace(const FlareBatch& batch, const FlareDrawing& drawing, float sensor_gap_mm);
+    void trace(const FlareBatch& batch, const FlareDrawing& drawing, const OpticalSystem& system,
+               float sensor_gap_mm);
     void place(const FlareBatch& batch, const FlareDrawing& drawing);
     void draw(const std::array<std::vector<DrawCommand>, picture_levels>& draws,
               const FlareDrawing& drawing, const LevelTargets& targets);

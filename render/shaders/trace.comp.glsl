@@ -11,7 +11,7 @@ layout(std140, binding = 1) uniform Aspheres { vec4 term[1024]; };
 struct Bundle {
     vec4 box;    // u and v of the first ray, and the steps between rays, mm
     ivec4 grid;  // rays a row, first ray, rays, first entry of the lens
-    ivec4 path;  // the two surfaces that reflect, the stop, count of surfaces
+    ivec4 path;  // the two surfaces that reflect, the stop, count of surfaces but the sensor
 };
 struct Ray {
     vec4 at;      // x, y on the sensor in mm; margin, negative where the ray fails; r_rel
@@ -25,6 +25,7 @@ layout(std430, binding = 2) readonly buffer Groups { uvec2 groups[]; };
 
 uniform vec3 direction, e1, e2;  // of the beam
 uniform float sensor_gap;        // last vertex z minus the sensor's, mm
+uniform vec2 sensor_half;        // of its width and height, mm: it clips light that it reflects
 
 float margin;
 vec3 p, d;
@@ -63,7 +64,7 @@ void main() {
     float r2_rel = 0.0, sense = 1.0;
     int crossing = 0, turns = 0;
     int step = 1;
-    for (int s = 0; s < bundle.path.w; s += step) {
+    for (int s = 0; s < bundle.path.w || (turns < 2 && s == bundle.path[turns]); s += step) {
         vec4 shape = surface[bundle.grid.w + 2 * s], media = surface[bundle.grid.w + 2 * s + 1];
         bool forward = step > 0;
         sense = forward ? 1.0 : -1.0;
@@ -106,6 +107,9 @@ void main() {
             if (crossing == 1) ray.stop01.zw = p.xy;
             if (crossing == 2) ray.stop2.xy = p.xy;
             ++crossing;
+        } else if (s == bundle.path.w) {
+            vec2 rel = p.xy / sensor_half;
+            r2_rel = max(r2_rel, max(rel.x * rel.x, rel.y * rel.y));
         } else {
             r2_rel = max(r2_rel, dot(p.xy, p.xy) * shape.z * shape.z);
         }

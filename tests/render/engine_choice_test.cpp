@@ -52,7 +52,7 @@ TEST(EngineChoice, TimesBothOnTheScene) {
 
 TEST(EngineChoice, AnEngineThatFailsInItsTrialIsNotTaken) {
     FlareScene scene = flare_scene(bundled("heliar_tronnier_100"), Monochromatic{});
-    scene.ghosts.push_back({{5, 3, 4, 2}});  // more reflections than it can follow
+    scene.ghosts = {{{5, 3, 4, 2}}};  // more reflections than it can follow
     FlareRequest request;
     request.light.field_deg = 1.0;
     OffscreenContext context;

@@ -141,6 +141,22 @@ TEST_F(GlFlareTest, FollowsTheStop) {
         }
 }
 
+TEST_F(GlFlareTest, FollowsLightThatTheSensorReflects) {
+    Prescription lens = bundled("heliar_tronnier_100");
+    lens.sensor.reflectance = UniformReflectance{0.2};
+    FlareRequest request = request_of(9.0, 90.0, 0.01);
+    FlareScene scene = flare_scene(lens, request.spectrum);
+    const std::size_t sensor = scene.system().surfaces.size();
+    std::erase_if(scene.ghosts,
+                  [&](const GhostPath& path) { return path.reflections[0] != sensor; });
+    ASSERT_FALSE(scene.ghosts.empty());
+    const auto cpu = render_planned(scene, request), gl = gl_.render(scene, request);
+    ASSERT_GT(cpu->flux_on_sensor_mm2, 0.0);
+    EXPECT_LE(relative_l1(cpu->irradiance, gl->irradiance), engines * request.tolerance);
+    request.light.azimuth_deg = 60.0;
+    EXPECT_EQ(error_of([&] { gl_.render(scene, request); }).where, "azimuth");
+}
+
 TEST_F(GlFlareTest, HighlightsTheGhostsAskedFor) {
     FlareRequest request = request_of(9.0, 60.0, 0.01);
     const FlareScene scene = flare_scene(bundled("heliar_tronnier_100"), request.spectrum);
@@ -213,6 +229,7 @@ TEST(GlFlareOffer, SaysWhyItCannotBeUsed) {
     GlOffer offer{.version = 33,
                   .vertex_storage_blocks = 16,
                   .compute_storage_blocks = 16,
+                  .storage_block_bytes = 1 << 27,
                   .renderer = "old card"};
     const Error::Parts old = error_of([&] { require_gl_flare(offer); });
     EXPECT_EQ(old.where, "old card");
@@ -225,6 +242,9 @@ TEST(GlFlareOffer, SaysWhyItCannotBeUsed) {
     offer.vertex_storage_blocks = 16;
     offer.compute_storage_blocks = 2;
     EXPECT_EQ(error_of([&] { require_gl_flare(offer); }).found, "2");
+    offer.compute_storage_blocks = 16;
+    offer.storage_block_bytes = 1 << 24;
+    EXPECT_EQ(error_of([&] { require_gl_flare(offer); }).found, "16777216 bytes");
 }
 
 TEST_F(GlFlareTest, AComputeShaderThatDoesNotCompileIsAnError) {
