@@ -15,14 +15,11 @@ namespace {
 
 /// OpenGL is taken when it needs less than this share of the CPU's time.
 constexpr double clearly_faster = 0.8;
-/// The trial's picture is small and rough, so that both engines fit into the budget.
+/// The trial's picture is small and rough, and begins with a few ghosts: an OpenGL in software
+/// would take seconds for all of them. Their number grows by this factor while time allows.
 constexpr int trial_width_px = 640;
 constexpr double trial_tolerance = 0.04;
-/// Before it, a few ghosts on a smaller one: an OpenGL that takes so many times what the CPU does
-/// there (one in software) is not tried further, since that would take seconds.
-constexpr std::size_t few_ghosts = 8;
-constexpr int few_width_px = 240;
-constexpr double few_tolerance = 0.1, hopeless = 2.5;
+constexpr std::size_t first_ghosts = 8, growth = 4;
 
 using Clock = std::chrono::steady_clock;
 template <class Work>
@@ -32,15 +29,12 @@ double ms_of(Work work) {
     return std::chrono::duration<double, std::milli>(Clock::now() - began).count();
 }
 
-/// A few ghosts from all along the list.
-std::vector<GhostPath> some_of(const std::vector<GhostPath>& ghosts) {
+/// So many ghosts from all along the list.
+std::vector<GhostPath> some_of(const std::vector<GhostPath>& ghosts, std::size_t count) {
     std::vector<GhostPath> some;
-    const std::size_t step = std::max<std::size_t>(1, ghosts.size() / few_ghosts);
-    for (std::size_t g = 0; g < ghosts.size(); g += step) some.push_back(ghosts[g]);
+    for (std::size_t k = 0; k < count; ++k) some.push_back(ghosts[k * ghosts.size() / count]);
     return some;
 }
-
-void keep_best(std::optional<double>& best, double ms) { best = std::min(best.value_or(ms), ms); }
 
 }  // namespace
 
@@ -68,10 +62,9 @@ EngineTimes time_engines(const FlareScene& scene, const FlareRequest& request, G
         return std::chrono::duration<double, std::milli>(Clock::now() - began).count();
     };
     FlareRequest trial = request;
-    trial.width_px = std::min(few_width_px, request.width_px);
-    trial.tolerance = few_tolerance;
+    trial.width_px = std::min(trial_width_px, request.width_px);
+    trial.tolerance = std::max(trial_tolerance, request.tolerance);
     trial.highlighted.clear();
-    trial.only = some_of(scene.ghosts);
     const auto draw_cpu = [&] { return ms_of([&] { render_planned(scene, trial); }); };
     const auto draw_gl = [&] {
         return ms_of([&] {
@@ -80,24 +73,15 @@ EngineTimes time_engines(const FlareScene& scene, const FlareRequest& request, G
         });
     };
     try {
-        if (gl != nullptr) {
-            draw_gl();  // drivers finish their shaders in the first picture
-            times.gl_ms = draw_gl();
+        for (std::size_t count = first_ghosts;; count *= growth) {
+            trial.only = some_of(scene.ghosts, std::min(count, scene.ghosts.size()));
+            times.cpu_ms = draw_cpu();
+            if (gl != nullptr) {
+                if (count == first_ghosts) draw_gl();  // drivers finish their shaders in it
+                times.gl_ms = draw_gl();
+            }
+            if (count >= scene.ghosts.size() || spent_ms() * (1 + growth) > budget_ms) break;
         }
-        times.cpu_ms = draw_cpu();
-        if (times.gl_ms && *times.gl_ms > hopeless * *times.cpu_ms) return times;
-        trial.width_px = std::min(trial_width_px, request.width_px);
-        trial.tolerance = std::max(trial_tolerance, request.tolerance);
-        trial.only = request.only;
-        times.cpu_ms.reset();
-        times.gl_ms.reset();
-        double round_ms = 0.0;
-        do {
-            const double before = spent_ms();
-            keep_best(times.cpu_ms, draw_cpu());
-            if (gl != nullptr) keep_best(times.gl_ms, draw_gl());
-            round_ms = spent_ms() - before;
-        } while (spent_ms() + round_ms <= budget_ms);
     } catch (const Error& error) {  // the CPU's engine throws none
         times.gl_ms.reset();
         times.gl_refusal = error.what();

@@ -30,10 +30,9 @@ struct FlareEngineChoice {
 /// the more exact. A wish for OpenGL that cannot be met falls back to the CPU and says why.
 FlareEngineChoice choose_engine(FlareEngine wish, const EngineTimes& times);
 
-/// Draws a few ghosts with both engines and, where OpenGL is not far behind there, the request by
-/// turns, in a size and to a tolerance for which about `budget_ms` usually suffice: each engine at
-/// least once, the best of each counts. `gl` may be null (then `gl_refusal` says why). An Error of
-/// OpenGL becomes its refusal.
+/// Draws a part of the scene's ghosts with both engines, a larger part while that is likely to fit
+/// into the budget (an OpenGL in software may overrun it); the last times count. `gl` may be null
+/// (then `gl_refusal` says why). An Error of OpenGL becomes its refusal.
 EngineTimes time_engines(const FlareScene& scene, const FlareRequest& request, GlFlare* gl,
                          const std::string& gl_refusal = {}, double budget_ms = 100.0);
 

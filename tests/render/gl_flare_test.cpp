@@ -144,7 +144,7 @@ TEST_F(GlFlareTest, FollowsTheStop) {
 TEST_F(GlFlareTest, FollowsLightThatTheSensorReflects) {
     Prescription lens = bundled("heliar_tronnier_100");
     lens.sensor.reflectance = UniformReflectance{0.2};
-    FlareRequest request = request_of(9.0, 90.0, 0.01);
+    FlareRequest request = request_of(5.0, 90.0, 0.01);
     FlareScene scene = flare_scene(lens, request.spectrum);
     const std::size_t sensor = scene.system().surfaces.size();
     std::erase_if(scene.ghosts,
