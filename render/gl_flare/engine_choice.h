@@ -31,8 +31,8 @@ struct FlareEngineChoice {
 FlareEngineChoice choose_engine(FlareEngine wish, const EngineTimes& times);
 
 /// Draws a part of the scene's ghosts with both engines, a larger part while that is likely to fit
-/// into the budget (an OpenGL in software may overrun it); the last times count. `gl` may be null
-/// (then `gl_refusal` says why). An Error of OpenGL becomes its refusal.
+/// into the budget, or into a few times that while OpenGL is ahead; the last times count. `gl` may
+/// be null (then `gl_refusal` says why). An Error of OpenGL becomes its refusal.
 EngineTimes time_engines(const FlareScene& scene, const FlareRequest& request, GlFlare* gl,
                          const std::string& gl_refusal = {}, double budget_ms = 100.0);
 
