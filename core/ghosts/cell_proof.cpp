@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 // The formulas are those of core/optics/trace_steps.h on affine forms, for rays that pass: what is
 // known of these (within the clear radius, direction of unit length, …) confines every quantity
@@ -12,8 +13,8 @@ namespace {
 
 /// Narrowed below this share, a cell is better begun anew on what is left of it.
 constexpr double restart_share = 0.5;
-constexpr int newton_rounds = 8;       ///< for the middle ray of an asphere; any start is safe
-constexpr int enclosing_rounds = 2;    ///< of the asphere's intersection
+constexpr int newton_rounds = 8;            ///< for the middle ray of an asphere; any start is safe
+constexpr int enclosing_rounds = 2;         ///< of the asphere's intersection
 constexpr double worse_than_nothing = 0.5;  ///< of a known radius, as error of a form
 
 const Interval unit{-1.0, 1.0};
@@ -59,8 +60,7 @@ class CellTrace {
             }
             if (step.event.reflects && reflection < 2) {
                 const Interval cosine = range(cosine_, domain_);
-                verdict_.cosine[reflection++] =
-                    intersection(cosine, {0.0, 1.0 + affine_rounding});
+                verdict_.cosine[reflection++] = intersection(cosine, {0.0, 1.0 + affine_rounding});
             }
             if (domain_.share() < restart_share) return ended();
         }
@@ -74,6 +74,8 @@ class CellTrace {
     PupilBox cell_;
     AffineDomain domain_;
     AffineVector position_, direction_, normal_;
+    AffineVector start_;  ///< before the last move
+    Affine moved_;        ///< along the ray
     Affine cosine_;
     CellVerdict verdict_;
 
@@ -106,12 +108,16 @@ class CellTrace {
     }
 
     void advance(const Affine& t) {
+        start_ = position_;
+        moved_ = t;
         position_ = {position_.x + t * direction_.x, position_.y + t * direction_.y,
                      position_.z + t * direction_.z};
     }
 
     /// Where no form can be had: rays that pass meet the surface somewhere within its limits.
     void be_anywhere(const ProofPath::Step& step) {
+        start_ = position_;
+        moved_.error = std::numeric_limits<double>::infinity();
         const Affine across = anything_in({-step.limit_mm, step.limit_mm});
         position_ = {across, across, anything_in(step.sag_mm)};
     }
@@ -151,6 +157,8 @@ class CellTrace {
         const Affine x = along * d.x - (d.y * moment.z - d.z * moment.y);
         const Affine y = along * d.y - (d.z * moment.x - d.x * moment.z);
         const Affine z = along * d.z - (d.x * moment.y - d.y * moment.x);
+        start_ = position_;
+        moved_.error = std::numeric_limits<double>::infinity();
         position_ = {(-1.0 / c) * x, (-1.0 / c) * y, (1.0 / c) * (1.0 - z)};
         return Fate::passes;
     }
@@ -250,7 +258,8 @@ class CellTrace {
             const SagRange sag = sag_range(step, square(x) + square(y));
             if (!sag.finite) return meet_asphere_anywhere(step);
             const Interval rates = dz - 2.0 * (sag.slope * (x * dx + y * dy));
-            if (rates.contains(0.0)) return round == 0 ? meet_asphere_anywhere(step) : finish_asphere(step, t);
+            if (rates.contains(0.0))
+                return round == 0 ? meet_asphere_anywhere(step) : finish_asphere(step, t);
             t = m - miss * anything_in(Interval{1.0, 1.0} / rates);
             reachable = intersection(reachable, range(t, domain_));
             if (reachable.empty()) return Fate::none;
@@ -342,9 +351,45 @@ class CellTrace {
         }
         confine(p.x, within);
         confine(p.y, within);
+        lie_on_surface(step);
         if (!narrow(domain_, p.z, step.sag_mm)) return false;
         confine(p.z, step.sag_mm);
         return true;
+    }
+
+    /// The sag of x and y errs less than the height along the ray, whose errors it takes only by
+    /// the surface's slope; with that height the move along the ray errs less, and so do x and y.
+    void lie_on_surface(const ProofPath::Step& step) {
+        if (step.event.aspheric_count > 0 || step.event.curvature == 0.0) return;
+        const double c = step.event.curvature, k1 = 1.0 + step.event.conic;
+        const double limit2 = step.limit_mm * step.limit_mm;
+        Affine r2 = square(position_.x) + square(position_.y);
+        confine(r2, {0.0, limit2});
+        const Affine domain = 1.0 - (k1 * c * c) * r2;
+        constexpr double all = std::numeric_limits<double>::max();
+        const Interval size = known(domain, {0.0, all});
+        if (size.empty()) return;
+        const Affine root = sqrt(domain, size);
+        const Affine sag = c * (r2 * reciprocal(1.0 + root, Interval{1.0, 1.0} + sqrt(size)));
+        if (sag.error >= position_.z.error) return;
+        position_.z = sag;
+        const Interval dz = range(direction_.z, domain_);
+        if (dz.contains(0.0)) return;
+        const Affine t = (sag - start_.z) * reciprocal(direction_.z, dz);
+        if (t.error >= moved_.error) return;
+        moved_ = t;
+        position_.x = start_.x + t * direction_.x;
+        position_.y = start_.y + t * direction_.y;
+    }
+
+    /// The component along the axis, from those across it, where that errs less.
+    void have_unit_length(double sense) {
+        const Affine across2 = square(direction_.x) + square(direction_.y);
+        const Affine along2 = 1.0 - across2;
+        const Interval size = known(along2, open_share);
+        if (size.empty()) return;
+        const Affine along = sense * sqrt(along2, size);
+        if (along.error < direction_.z.error) direction_.z = along;
     }
 
     Fate pass(const ProofPath::Step& step) {
@@ -352,13 +397,16 @@ class CellTrace {
         const Interval onward = event.sense > 0.0 ? Interval{0.0, 1.0 + affine_rounding}
                                                   : Interval{-1.0 - affine_rounding, 0.0};
         if (!narrow(domain_, direction_.z, onward)) return Fate::none;
+        if (!narrow(domain_, square(direction_.x) + square(direction_.y), open_share))
+            return Fate::none;
+        have_unit_length(event.sense);
         confine(direction_.z, onward);
         position_.z = position_.z + event.gap_mm;
         const bool plane = event.curvature == 0.0 && event.aspheric_count == 0;
-        const Fate met = plane                        ? meet_plane(step)
-                         : event.aspheric_count > 0   ? meet_asphere(step)
-                         : event.conic == 0.0         ? meet_sphere(step)
-                                                      : meet_conic(step);
+        const Fate met = plane                      ? meet_plane(step)
+                         : event.aspheric_count > 0 ? meet_asphere(step)
+                         : event.conic == 0.0       ? meet_sphere(step)
+                                                    : meet_conic(step);
         if (met != Fate::passes) return met;
         if (!clip(step)) return Fate::none;
         if (!event.reflects && event.n_in == event.n_out) return Fate::passes;
@@ -387,8 +435,7 @@ class CellTrace {
         const Interval size2 = range(length2, domain_);
         if (!(size2.low > 0.0)) return false;
         const Affine length = sqrt(length2, size2);
-        const Affine inverse =
-            (side.low > 0.0 ? 1.0 : -1.0) * reciprocal(length, sqrt(size2));
+        const Affine inverse = (side.low > 0.0 ? 1.0 : -1.0) * reciprocal(length, sqrt(size2));
         normal_ = {normal_.x * inverse, normal_.y * inverse, normal_.z * inverse};
         cosine_ = projected * inverse;
         return true;
@@ -400,8 +447,7 @@ class CellTrace {
             const Affine twice = -2.0 * cosine_;
             d = {d.x + twice * normal_.x, d.y + twice * normal_.y, d.z + twice * normal_.z};
         } else {
-            const Affine cosine2 =
-                1.0 - (event.eta * event.eta) * (1.0 - square(cosine_));
+            const Affine cosine2 = 1.0 - (event.eta * event.eta) * (1.0 - square(cosine_));
             if (!narrow(domain_, cosine2, open_share)) return Fate::none;
             const Affine q = sqrt(cosine2, known(cosine2, open_share)) - event.eta * cosine_;
             d = {event.eta * d.x + q * normal_.x, event.eta * d.y + q * normal_.y,

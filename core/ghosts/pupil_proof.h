@@ -22,7 +22,7 @@ struct PupilProof {
     double uncertain_mm2 = 0.0;          ///< of it: there light may pass, the rest is proven dark
     double missed_flux_bound_mm2 = 0.0;  ///< uncertain area times the reflectances possible there
     std::size_t cells = 0;               ///< evaluated
-    bool finished = true;                ///< false when it was stopped; the bounds hold all the same
+    bool finished = true;  ///< false when it was stopped; the bounds hold all the same
 
     double proven_share() const {
         return searched_mm2 > 0.0 ? 1.0 - uncertain_mm2 / searched_mm2 : 1.0;
@@ -30,9 +30,9 @@ struct PupilProof {
 };
 
 /// Splits the entrance outside `claimed` (symmetric about u = 0; of no area: all of the entrance)
-/// where the bound is largest, until enough of it is proven dark. The beam must lie in the y–z plane:
-/// one half is proven for both. The stop counts as its circle, so a claim holds for any turn of it.
-/// The direct path has no reflections: its bound is the area.
+/// where the bound is largest, until enough of it is proven dark. The beam must lie in the y–z
+/// plane: one half is proven for both. The stop counts as its circle, so a claim holds for any turn
+/// of it. The direct path has no reflections: its bound is the area.
 PupilProof prove_pupil(const OpticalSystem& system, const GhostPath& ghost, const BeamFrame& frame,
                        const PupilBox& claimed, const ProofEffort& effort = {},
                        std::stop_token stop = {});
