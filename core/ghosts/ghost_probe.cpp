@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "core/ghosts/cell_judgement.h"
 
@@ -37,6 +38,20 @@ std::size_t passing_nodes(const MirrorGrid& grid, double stop_radius_mm) {
     return 2 * half - middle;
 }
 
+/// By cells, each way of looking in turn; false when none finds anything.
+bool search_cells(const OpticalSystem& system, const TracePath<float>& path, const BeamFrame& frame,
+                  std::initializer_list<PupilSearch> ways, GhostProbe& probe) {
+    for (const PupilSearch way : ways) {
+        const Pupil pupil = find_pupil(system, path, frame, way);
+        probe.rays += pupil.rays;
+        probe.empty = pupil.empty();
+        if (probe.empty) continue;
+        probe.grid.box = symmetric(pupil.box);
+        break;
+    }
+    return !probe.empty;
+}
+
 }  // namespace
 
 GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path,
@@ -48,6 +63,7 @@ GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path
     const double first_cell_mm = 2.0 * grid.box.u1_mm / cells;
     // The first look is a finer one: beside failing rays a coarse cell says nothing.
     grid.cells = 2 * cells;
+    bool searched = false;
     for (int zoom = 0; zoom < most_zooms; ++zoom) {
         trace_mirrored(path, frame, Weights::none, grid);
         probe.rays += grid.half.size();
@@ -68,8 +84,11 @@ GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path
                 j_range.add(j + 1.0);
             }
         if (!(i_range.high > 0.0)) {
-            probe.empty = true;
-            return probe;
+            // Crescents between rays that fail: a box about all that may hold them shows nothing.
+            if (!search_cells(system, path, frame, {PupilSearch::beside_failing}, probe))
+                return probe;
+            searched = true;
+            break;
         }
         const double v0 = grid.box.v0_mm, height = grid.box.v1_mm - v0;
         grid.box.u1_mm *= i_range.high / (across / 2);
@@ -86,15 +105,10 @@ GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path
     trace_mirrored(path, frame, Weights::none, grid);
     probe.rays += grid.half.size();
     probe.passing = passing_nodes(grid, stop_radius_mm);
-    if (probe.passing < few_passing) {
-        const Pupil pupil = find_pupil(system, path, frame, PupilSearch::quick);
-        probe.rays += pupil.rays;
-        if (pupil.empty()) {
-            probe.empty = true;
-            return probe;
-        }
-        grid.box = symmetric(pupil.box);
-    }
+    const bool too_few = probe.passing < few_passing && !searched;
+    if (too_few && !search_cells(system, path, frame,
+                                 {PupilSearch::quick, PupilSearch::beside_failing}, probe))
+        return probe;
     grid.half.keep_cosines = true;
     trace_mirrored(path, frame, Weights::polarised, grid);
     probe.rays += grid.half.size();
