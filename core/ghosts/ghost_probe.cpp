@@ -11,7 +11,8 @@ namespace {
 
 constexpr SearchEffort effort{12, 1, 40, 600};  // as find_pupil's quick one
 constexpr int most_zooms = 24;
-constexpr int most_cells = 96;          ///< of a look: then cells by themselves are cheaper
+constexpr int most_cells = 96;  ///< of a look: then cells by themselves are cheaper
+constexpr int meridian_rays = 256;
 constexpr std::size_t few_passing = 8;  ///< of the last grid's nodes: look more closely
 
 PupilBox symmetric(PupilBox box) {
@@ -36,6 +37,41 @@ std::size_t passing_nodes(const MirrorGrid& grid, double stop_radius_mm) {
         middle += passes ? 1 : 0;
     }
     return 2 * half - middle;
+}
+
+/// Where rays in the y–z plane pass, with a step to spare; a line of rays costs little and crosses
+/// rings about the axis and islands that a grid may step over.
+Range passing_meridian(const TracePath<float>& path, const BeamFrame& frame,
+                       const PupilBox& entrance, double stop_radius_mm) {
+    Bundle<float> line;
+    const double step = (entrance.v1_mm - entrance.v0_mm) / meridian_rays;
+    for (int k = 0; k < meridian_rays; ++k) {
+        line.u_mm.push_back(0.0F);
+        line.v_mm.push_back(static_cast<float>(entrance.v0_mm + (k + 0.5) * step));
+    }
+    trace_bundle(path, frame, Weights::none, line);
+    Range passing;
+    for (std::size_t k = 0; k < line.size(); ++k) {
+        bool passes = line.margin[k] >= 0.0F && line.r_rel[k] <= 1.0F;
+        for (std::size_t s = 0; s < static_cast<std::size_t>(line.stop_crossings); ++s)
+            passes =
+                passes && std::hypot(static_cast<double>(line.stop_u_mm[s][k]),
+                                     static_cast<double>(line.stop_v_mm[s][k])) <= stop_radius_mm;
+        if (!passes) continue;
+        passing.add(static_cast<double>(line.v_mm[k]) - step);
+        passing.add(static_cast<double>(line.v_mm[k]) + step);
+    }
+    return passing;
+}
+
+/// Widens a box to what the meridian showed; light along the axis passes in rings.
+void hold(PupilBox& box, const Range& meridian, bool on_axis) {
+    if (!(meridian.low <= meridian.high)) return;
+    box.v0_mm = std::min(box.v0_mm, meridian.low);
+    box.v1_mm = std::max(box.v1_mm, meridian.high);
+    if (!on_axis) return;
+    box.u1_mm = std::max({box.u1_mm, -meridian.low, meridian.high});
+    box.u0_mm = -box.u1_mm;
 }
 
 /// By cells, each way of looking in turn; false when none finds anything.
@@ -63,6 +99,9 @@ GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path
     const double first_cell_mm = 2.0 * grid.box.u1_mm / cells;
     // The first look is a finer one: beside failing rays a coarse cell says nothing.
     grid.cells = 2 * cells;
+    const bool on_axis = frame.direction.z == 1.0;
+    const Range meridian = passing_meridian(path, frame, entrance, stop_radius_mm);
+    probe.rays += meridian_rays;
     bool searched = false;
     for (int zoom = 0; zoom < most_zooms; ++zoom) {
         trace_mirrored(path, frame, Weights::none, grid);
@@ -109,6 +148,7 @@ GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path
     if (too_few && !search_cells(system, path, frame,
                                  {PupilSearch::quick, PupilSearch::beside_failing}, probe))
         return probe;
+    hold(grid.box, meridian, on_axis);
     grid.half.keep_cosines = true;
     trace_mirrored(path, frame, Weights::polarised, grid);
     probe.rays += grid.half.size();
