@@ -50,16 +50,22 @@ Range passing_meridian(const TracePath<float>& path, const BeamFrame& frame,
         line.v_mm.push_back(static_cast<float>(entrance.v0_mm + (k + 0.5) * step));
     }
     trace_bundle(path, frame, Weights::none, line);
+    auto in_clear = [&](std::size_t k) { return line.margin[k] >= 0.0F && line.r_rel[k] <= 1.0F; };
     Range passing;
-    for (std::size_t k = 0; k < line.size(); ++k) {
-        bool passes = line.margin[k] >= 0.0F && line.r_rel[k] <= 1.0F;
-        for (std::size_t s = 0; s < static_cast<std::size_t>(line.stop_crossings); ++s)
-            passes =
-                passes && std::hypot(static_cast<double>(line.stop_u_mm[s][k]),
-                                     static_cast<double>(line.stop_v_mm[s][k])) <= stop_radius_mm;
-        if (!passes) continue;
+    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+        // A small stop's image may lie between two rays: there the stop coordinate changes sign.
+        bool between = in_clear(k) && in_clear(k + 1);
+        bool at = in_clear(k);
+        for (std::size_t s = 0; s < static_cast<std::size_t>(line.stop_crossings); ++s) {
+            const auto here = static_cast<double>(line.stop_v_mm[s][k]);
+            const auto next = static_cast<double>(line.stop_v_mm[s][k + 1]);
+            at = at && std::abs(here) <= stop_radius_mm;
+            between = between && std::min(here, next) <= stop_radius_mm &&
+                      std::max(here, next) >= -stop_radius_mm;
+        }
+        if (!at && !between) continue;
         passing.add(static_cast<double>(line.v_mm[k]) - step);
-        passing.add(static_cast<double>(line.v_mm[k]) + step);
+        passing.add(static_cast<double>(line.v_mm[k]) + 2.0 * step);
     }
     return passing;
 }
