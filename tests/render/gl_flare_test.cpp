@@ -98,7 +98,13 @@ TEST_P(GlFlareOnLens, PutsEachGhostWhereTheCpuDoes) {
         const auto cpu = render_planned(scene, request), gl = gl_.render(scene, request);
         const Moments a = moments(*cpu), b = moments(*gl);
         if (!(cpu->flux_on_sensor_mm2 > 1e-3 * ghosts[0].flux_mm2)) continue;
-        EXPECT_NEAR(b.flux / a.flux, 1.0, engines * request.tolerance) << name(ghosts[g].path);
+        // Ghosts whose cells are a pixel or so are drawn as spots there, what passes being judged
+        // by places a quarter of a cell apart: an eighth of a cell all along the rim is not
+        // resolved, and the plan makes no finer cells for them whatever the tolerance.
+        const int cells = gl->plan.ghosts.front().cells;
+        const double rim = a.spread_px < cells ? 4.0 / 8.0 / cells : 0.0;
+        EXPECT_NEAR(b.flux / a.flux, 1.0, engines * request.tolerance + rim)
+            << name(ghosts[g].path) << ", " << cells << " cells";
         // Light in the wrong place is as far off as the ghost is wide, or a part of a pixel.
         EXPECT_LE(std::hypot(a.column - b.column, a.row - b.row),
                   engines * request.tolerance * a.spread_px + 0.1)
