@@ -38,11 +38,11 @@ QString what_is_in(const QStringList& folders) {
         for (std::size_t k = 0; k < found; ++k) {
             glasses += library.catalogs[k].glasses.size();
         }
-        QStringList lines = {QStringLiteral("%1 catalogues, %2 glasses in these folders; %3 "
-                                            "catalogues are bundled.")
-                                 .arg(found)
-                                 .arg(grouped(glasses))
-                                 .arg(bundled)};
+        QStringList lines = {
+            QStringLiteral("%1 %2 with %3 glasses in these folders; %4 more are bundled.")
+                .arg(found)
+                .arg(found == 1 ? "catalogue" : "catalogues", grouped(glasses))
+                .arg(bundled)};
         constexpr std::size_t most = 4;
         for (std::size_t k = 0; k < library.notes.size() && k < most; ++k) {
             const Note& note = library.notes[k];

@@ -26,6 +26,7 @@
 #include "widgets/file_actions.h"
 #include "widgets/glass_folders.h"
 #include "widgets/models/ghost_table_model.h"
+#include "widgets/models/note_table_model.h"
 #include "widgets/panel_header.h"
 #include "widgets/panels/banner.h"
 #include "widgets/panels/first_order_panel.h"
