@@ -26,7 +26,7 @@ bool may_pass(const Bundle<T>& rays, const std::array<std::size_t, 4>& corners, 
     if (valid == 0 && level == 0) return true;
     margin.widen(share);
     if (margin.high < 0.0) return false;
-    if (valid == 0) return level < effort.blind_levels;
+    if (valid == 0) return !effort.only_beside_valid && level < effort.blind_levels;
     // Past a miss or total reflection the map is only continued, and next to it it turns sharply:
     // trust the valid corners alone, and less.
     if (singular && level <= effort.blind_levels) share = 2.0;

@@ -33,6 +33,7 @@ struct SearchEffort {
     int blind_levels;            ///< cells of failing corners are kept that long
     std::size_t enough_passing;  ///< nodes that pass: the region is resolved
     std::size_t most_cells;
+    bool only_beside_valid = false;  ///< but for the first level, cells of failing corners go
 };
 
 /// Whether a ray through the cell between four rays may pass, if the map does not bend by more

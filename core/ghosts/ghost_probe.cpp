@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "core/ghosts/cell_judgement.h"
 
@@ -10,7 +11,8 @@ namespace {
 
 constexpr SearchEffort effort{12, 1, 40, 600};  // as find_pupil's quick one
 constexpr int most_zooms = 24;
-constexpr int most_cells = 96;          ///< of a look: then cells by themselves are cheaper
+constexpr int most_cells = 96;  ///< of a look: then cells by themselves are cheaper
+constexpr int meridian_rays = 256;
 constexpr std::size_t few_passing = 8;  ///< of the last grid's nodes: look more closely
 
 PupilBox symmetric(PupilBox box) {
@@ -37,6 +39,61 @@ std::size_t passing_nodes(const MirrorGrid& grid, double stop_radius_mm) {
     return 2 * half - middle;
 }
 
+/// Where rays in the y–z plane pass, with a step to spare; a line of rays costs little and crosses
+/// rings about the axis and islands that a grid may step over.
+Range passing_meridian(const TracePath<float>& path, const BeamFrame& frame,
+                       const PupilBox& entrance, double stop_radius_mm) {
+    Bundle<float> line;
+    const double step = (entrance.v1_mm - entrance.v0_mm) / meridian_rays;
+    for (int k = 0; k < meridian_rays; ++k) {
+        line.u_mm.push_back(0.0F);
+        line.v_mm.push_back(static_cast<float>(entrance.v0_mm + (k + 0.5) * step));
+    }
+    trace_bundle(path, frame, Weights::none, line);
+    auto in_clear = [&](std::size_t k) { return line.margin[k] >= 0.0F && line.r_rel[k] <= 1.0F; };
+    Range passing;
+    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+        // A small stop's image may lie between two rays: there the stop coordinate changes sign.
+        bool between = in_clear(k) && in_clear(k + 1);
+        bool at = in_clear(k);
+        for (std::size_t s = 0; s < static_cast<std::size_t>(line.stop_crossings); ++s) {
+            const auto here = static_cast<double>(line.stop_v_mm[s][k]);
+            const auto next = static_cast<double>(line.stop_v_mm[s][k + 1]);
+            at = at && std::abs(here) <= stop_radius_mm;
+            between = between && std::min(here, next) <= stop_radius_mm &&
+                      std::max(here, next) >= -stop_radius_mm;
+        }
+        if (!at && !between) continue;
+        passing.add(static_cast<double>(line.v_mm[k]) - step);
+        passing.add(static_cast<double>(line.v_mm[k]) + 2.0 * step);
+    }
+    return passing;
+}
+
+/// Widens a box to what the meridian showed; light along the axis passes in rings.
+void hold(PupilBox& box, const Range& meridian, bool on_axis) {
+    if (!(meridian.low <= meridian.high)) return;
+    box.v0_mm = std::min(box.v0_mm, meridian.low);
+    box.v1_mm = std::max(box.v1_mm, meridian.high);
+    if (!on_axis) return;
+    box.u1_mm = std::max({box.u1_mm, -meridian.low, meridian.high});
+    box.u0_mm = -box.u1_mm;
+}
+
+/// By cells, each way of looking in turn; false when none finds anything.
+bool search_cells(const OpticalSystem& system, const TracePath<float>& path, const BeamFrame& frame,
+                  std::initializer_list<PupilSearch> ways, GhostProbe& probe) {
+    for (const PupilSearch way : ways) {
+        const Pupil pupil = find_pupil(system, path, frame, way);
+        probe.rays += pupil.rays;
+        probe.empty = pupil.empty();
+        if (probe.empty) continue;
+        probe.grid.box = symmetric(pupil.box);
+        break;
+    }
+    return !probe.empty;
+}
+
 }  // namespace
 
 GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path,
@@ -48,6 +105,10 @@ GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path
     const double first_cell_mm = 2.0 * grid.box.u1_mm / cells;
     // The first look is a finer one: beside failing rays a coarse cell says nothing.
     grid.cells = 2 * cells;
+    const bool on_axis = frame.direction.z == 1.0;
+    const Range meridian = passing_meridian(path, frame, entrance, stop_radius_mm);
+    probe.rays += meridian_rays;
+    bool searched = false;
     for (int zoom = 0; zoom < most_zooms; ++zoom) {
         trace_mirrored(path, frame, Weights::none, grid);
         probe.rays += grid.half.size();
@@ -68,8 +129,11 @@ GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path
                 j_range.add(j + 1.0);
             }
         if (!(i_range.high > 0.0)) {
-            probe.empty = true;
-            return probe;
+            // Crescents between rays that fail: a box about all that may hold them shows nothing.
+            if (!search_cells(system, path, frame, {PupilSearch::beside_failing}, probe))
+                return probe;
+            searched = true;
+            break;
         }
         const double v0 = grid.box.v0_mm, height = grid.box.v1_mm - v0;
         grid.box.u1_mm *= i_range.high / (across / 2);
@@ -86,15 +150,11 @@ GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path
     trace_mirrored(path, frame, Weights::none, grid);
     probe.rays += grid.half.size();
     probe.passing = passing_nodes(grid, stop_radius_mm);
-    if (probe.passing < few_passing) {
-        const Pupil pupil = find_pupil(system, path, frame, PupilSearch::quick);
-        probe.rays += pupil.rays;
-        if (pupil.empty()) {
-            probe.empty = true;
-            return probe;
-        }
-        grid.box = symmetric(pupil.box);
-    }
+    const bool too_few = probe.passing < few_passing && !searched;
+    if (too_few && !search_cells(system, path, frame,
+                                 {PupilSearch::quick, PupilSearch::beside_failing}, probe))
+        return probe;
+    hold(grid.box, meridian, on_axis);
     grid.half.keep_cosines = true;
     trace_mirrored(path, frame, Weights::polarised, grid);
     probe.rays += grid.half.size();

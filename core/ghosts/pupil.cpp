@@ -16,6 +16,18 @@ namespace {
 
 constexpr SearchEffort thorough{24, 3, 100, 3000};
 constexpr SearchEffort quick{12, 1, 40, 600};
+constexpr SearchEffort beside_failing{36, 3, 40, 1500, true};
+
+const SearchEffort& effort_of(PupilSearch search) {
+    switch (search) {
+        case PupilSearch::quick:
+            return quick;
+        case PupilSearch::beside_failing:
+            return beside_failing;
+        default:
+            return thorough;
+    }
+}
 
 constexpr int finest_level = 16;
 
@@ -93,13 +105,16 @@ PupilBox entrance_box(const OpticalSystem& system, const BeamFrame& frame) {
 template <class T>
 Pupil find_pupil(const OpticalSystem& system, const TracePath<T>& path, const BeamFrame& frame,
                  PupilSearch search) {
-    const SearchEffort& effort = search == PupilSearch::thorough ? thorough : quick;
+    const SearchEffort& effort = effort_of(search);
     const double stop_radius_mm = system.stop_mask.semi_diameter_mm;
     Pupil pupil;
     pupil.entrance = entrance_box(system, frame);
     pupil.across = static_cast<int>(effort.first_level_cells);
+    const std::uint32_t first_column =
+        search == PupilSearch::beside_failing ? effort.first_level_cells / 2 : 0;
     for (std::uint32_t j = 0; j < effort.first_level_cells; ++j)
-        for (std::uint32_t i = 0; i < effort.first_level_cells; ++i) pupil.cells.push_back({i, j});
+        for (std::uint32_t i = first_column; i < effort.first_level_cells; ++i)
+            pupil.cells.push_back({i, j});
     for (int level = 0;; ++level) {
         const Nodes<T> nodes = trace_nodes(path, frame, pupil.entrance, pupil.across, pupil.cells);
         pupil.rays += nodes.keys.size();

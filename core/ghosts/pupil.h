@@ -33,8 +33,10 @@ struct Pupil {
 PupilBox entrance_box(const OpticalSystem& system, const BeamFrame& frame);
 
 /// How hard to look: `thorough` finds slivers of a few thousandths of the entrance beside failing
-/// rays, for tables; `quick` may miss them, for pictures at interactive rate.
-enum class PupilSearch { quick, thorough };
+/// rays, for tables; `quick` may miss them, for pictures at interactive rate; `beside_failing`
+/// looks for them in one half of a beam in the y–z plane (the cells of the other half are left
+/// out), and only where some rays do not fail: a third of the thorough search's rays.
+enum class PupilSearch { quick, beside_failing, thorough };
 
 /// Looks for the part of the entrance that reaches the sensor along `path`: cells that may hold a
 /// passing ray, judged by their corners' clearances and stop coordinates with a safety margin, are

@@ -1,0 +1,53 @@
+// Tabulated films against the films themselves.
+#include "core/flare/film_tables.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/ghosts/ghost_path.h"
+#include "tests/support/optics_kit.h"
+
+namespace ghostlight {
+namespace {
+
+TEST(FilmTables, WeightsAreTheProductsOfTheFilms) {
+    // Linear between 129 cosines: the tables state 1e-3 of R; a ghost has two reflections and tens
+    // of transmissions, whose errors are those of 1 − R.
+    constexpr double tolerance = 4e-3;
+    const Prescription lens = bundled("tessar_brendel_100_f2.8");
+    std::vector<OpticalSystem> systems;
+    for (const double nm : {420.0, 500.0, 587.5618, 650.0}) systems.push_back(compile(lens, nm));
+    const FilmTables tables(systems, 1);
+    Random random(7);
+    for (const GhostPath& ghost : two_reflection_ghosts(systems.front())) {
+        const auto path = trace_path<float>(systems.front(), ghost);
+        Bundle<float> rays;
+        constexpr std::size_t count = 20;
+        rays.u_mm.assign(count, 0.0F);
+        rays.v_mm.assign(count, 0.0F);
+        rays.cosine_stride = count;
+        for (std::size_t k = 0; k < path.steps.size() * count; ++k)
+            rays.cosines.push_back(static_cast<float>(random.between(0.75, 1.0)));
+        std::vector<float> weights;
+        tables.weights(path, rays, weights);
+        for (std::size_t ray = 0; ray < count; ++ray)
+            for (std::size_t w = 0; w < systems.size(); ++w) {
+                double product = 1.0;
+                for (std::size_t s = 0; s < path.steps.size(); ++s) {
+                    const auto& step = path.steps[s];
+                    const Film& own =
+                        systems[w].surfaces[static_cast<std::size_t>(step.surface)].film;
+                    const Reflectances at =
+                        reflectances(step.sense > 0.0F ? own : reversed(own),
+                                     static_cast<double>(rays.cosines[s * count + ray]));
+                    product *= step.reflects ? at.r() : at.t();
+                }
+                ASSERT_NEAR(weights[ray * tables.stride() + w], product, tolerance * product)
+                    << name(ghost) << " at " << systems[w].wavelength_nm << " nm";
+            }
+    }
+}
+
+}  // namespace
+}  // namespace ghostlight
