@@ -26,6 +26,7 @@
 #include "widgets/models/ghost_table_model.h"
 #include "widgets/models/note_table_model.h"
 #include "widgets/models/prescription_model.h"
+#include "widgets/models/quantity_model.h"
 #include "widgets/palette.h"
 #include "widgets/panels/banner.h"
 #include "widgets/panels/first_order_panel.h"
