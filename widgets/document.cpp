@@ -3,9 +3,22 @@
 #include <utility>
 
 #include "core/io/lens_file.h"
+#include "core/io/read_text.h"
 #include "widgets/edit_command.h"
 
 namespace ghostlight {
+
+bool may_be_saved_over(const std::filesystem::path& file) {
+    std::error_code unreadable;
+    if (file.empty() || !std::filesystem::exists(file, unreadable)) {
+        return true;
+    }
+    try {
+        return read_text(file).find("\"ghostlight_lens\"") != std::string::npos;
+    } catch (const Error&) {
+        return false;  // whatever it is, it is not ours
+    }
+}
 
 std::string document_to_json(const DocumentState& state) {
     Prescription lens = state.lens;
@@ -80,6 +93,7 @@ std::optional<Error> Document::save_as(const std::filesystem::path& file) {
         return error;
     }
     file_ = file;
+    is_own_file_ = true;
     saved_lens_ = state_.lens;
     saved_at_ = QDateTime::currentDateTime();
     history_.setClean();
@@ -96,6 +110,7 @@ void Document::adopt(DocumentState state, const std::filesystem::path& file) {
 void Document::begin(DocumentState state, const std::filesystem::path& file, Notes notes) {
     history_.clear();
     file_ = file;
+    is_own_file_ = may_be_saved_over(file);
     notes_ = std::move(notes);
     saved_at_ = {};
     first_revision_ = revision_ + 1;

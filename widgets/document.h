@@ -58,7 +58,10 @@ class Document : public QObject {
     void adopt(DocumentState state, const std::filesystem::path& file);
 
     const std::filesystem::path& file() const { return file_; }
+    /// What the file's reader noticed.
     const Notes& notes() const { return notes_; }
+    /// The file is in our format, or there is none. Another program's file is never written over.
+    bool is_own_file() const { return is_own_file_; }
     /// The lens differs from its file. The scene is saved too, but looking around is no edit.
     bool is_modified() const { return state_.lens != saved_lens_; }
     QDateTime saved_at() const { return saved_at_; }
@@ -82,12 +85,16 @@ class Document : public QObject {
     Prescription saved_lens_;
     std::filesystem::path file_;
     Notes notes_;
+    bool is_own_file_ = true;
     QDateTime saved_at_;
     std::uint64_t revision_ = 0;
     std::uint64_t first_revision_ = 0;
     std::chrono::steady_clock::time_point changed_at_{};
     QUndoStack history_;
 };
+
+/// Whether a file is one that saving may write over: in our format, or not there yet.
+bool may_be_saved_over(const std::filesystem::path& file);
 
 /// A lens file's text with the scene in it, and back.
 std::string document_to_json(const DocumentState& state);

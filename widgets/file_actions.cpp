@@ -11,21 +11,26 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/io/formats.h"
 #include "core/io/image_file.h"
 #include "core/io/lens_file.h"
 #include "core/io/table_file.h"
+#include "core/io/unfolded_ghost.h"
 #include "widgets/actions.h"
 #include "widgets/document.h"
+#include "widgets/glass_folders.h"
+#include "widgets/lens_filters.h"
 #include "widgets/panels/banner.h"
 #include "widgets/panels/status_line.h"
 #include "widgets/settings.h"
+#include "widgets/unknown_glass.h"
 
 namespace ghostlight {
 
 namespace {
 
 constexpr const char* topic = "file";
-constexpr const char* lens_filter = "Lens files (*.json);;All files (*)";
+constexpr const char* own_filter = "Ghostlight lens (*.json)";
 
 QString text_of(const std::filesystem::path& file) { return QString::fromStdString(file.string()); }
 
@@ -48,10 +53,17 @@ FileActions::FileActions(Document& document, const Actions& actions, Banner& ban
                : button == QMessageBox::Discard ? Answer::discard
                                                 : Answer::cancel;
     };
+    ask_glass_folders = [this](const QStringList& folders) -> std::optional<QStringList> {
+        GlassFoldersDialog dialog(folders, window_);
+        return dialog.exec() == QDialog::Accepted ? std::optional(dialog.folders()) : std::nullopt;
+    };
     ask_file_to_write = [this](const QString& title, const QString& suggested,
                                const QString& filter) {
-        return QFileDialog::getSaveFileName(window_, title,
-                                            QDir(settings::folder()).filePath(suggested), filter);
+        QFileDialog dialog(window_, title, settings::folder(), filter);
+        dialog.setAcceptMode(QFileDialog::AcceptSave);
+        dialog.selectFile(suggested);
+        dialog.setDefaultSuffix(QFileInfo(suggested).suffix());
+        return dialog.exec() == QDialog::Accepted ? dialog.selectedFiles().value(0) : QString();
     };
     const auto on = [&](const char* id, auto run) {
         connect(&actions[id], &QAction::triggered, this, run);
@@ -59,6 +71,28 @@ FileActions::FileActions(Document& document, const Actions& actions, Banner& ban
     on("file.open", [this] { choose_and_open(); });
     on("file.save", [this] { save(); });
     on("file.save_as", [this] { choose_and_save(); });
+    on("file.export_lens", [this] {
+        const bool ends_in_zmx = document_.file().extension() == ".zmx";
+        choose_and(&FileActions::export_lens, "Export lens",
+                   !document_.is_own_file() && ends_in_zmx ? "_exported.zmx" : ".zmx",
+                   lens_export_filter());
+    });
+    on("file.export_ghost", [this] {
+        const auto ghosts = shown_.ghosts();
+        if (document_.is_empty()) {
+            return;
+        }
+        if (ghosts.empty()) {
+            banner_.show_text(topic, "Choose a ghost in the table first: it is the one to export.");
+            return;
+        }
+        const auto count = document_.lens().surfaces.size();
+        choose_and(
+            &FileActions::export_ghost, "Export unfolded ghost",
+            QStringLiteral("_ghost_%1.zmx").arg(QString::fromStdString(name(ghosts[0], count))),
+            "Zemax (*.zmx)");
+    });
+    on("file.glass_folders", [this] { choose_glass_folders(); });
     on("file.export_table", [this] {
         choose_and(&FileActions::export_table, "Export ghost table", "_ghosts.csv",
                    "Comma-separated values (*.csv)");
@@ -97,16 +131,6 @@ bool FileActions::open(const std::filesystem::path& file) {
     if (!is_bundled(document_.file())) {
         settings::add_recent_file(text_of(document_.file()));
     }
-    QStringList warnings;
-    for (const Note& note : document_.notes()) {
-        if (note.severity == Note::Severity::warning) {
-            warnings << QString::fromStdString(note.where + ": " + note.text);
-        }
-    }
-    if (!warnings.isEmpty()) {
-        banner_.show_text(topic, QStringLiteral("%1 was read with reservations: %2")
-                                     .arg(document_.title(), warnings.join("; ")));
-    }
     return true;
 }
 
@@ -121,13 +145,31 @@ bool FileActions::is_bundled(const std::filesystem::path& file) const {
 }
 
 bool FileActions::save() {
-    // A bundled lens is a reference; edits of it go to a file of the person's own.
-    return document_.file().empty() || is_bundled(document_.file()) ? choose_and_save()
-                                                                    : save_as(document_.file());
+    // A bundled lens is a reference, and another program's file is that program's: edits of either
+    // go to a file of the person's own.
+    const bool asks =
+        document_.file().empty() || !document_.is_own_file() || is_bundled(document_.file());
+    return asks ? choose_and_save() : save_as(document_.file());
 }
 
 bool FileActions::save_as(const std::filesystem::path& file) {
     return attempt(QStringLiteral("Saved %1").arg(text_of(file.filename())), [&] {
+        const bool is_in_hand = file == document_.file();
+        if (!is_in_hand && !has_own_extension(file)) {
+            throw Error({.problem = "lenses are saved in Ghostlight's own format; File ▸ Export "
+                                    "Lens writes others",
+                         .file = file.string(),
+                         .where = {},
+                         .found = file.extension().string(),
+                         .expected = "a name that ends in .json"});
+        }
+        if (!may_be_saved_over(file)) {
+            throw Error({.problem = "the file is another program's, and is not written over",
+                         .file = file.string(),
+                         .where = {},
+                         .found = {},
+                         .expected = "another name"});
+        }
         if (const auto error = document_.save_as(file)) {
             throw *error;
         }
@@ -139,9 +181,16 @@ bool FileActions::choose_and_save() {
     if (document_.is_empty()) {
         return false;
     }
-    const QString suggested = document_.file().empty() ? QStringLiteral("lens.json")
-                                                       : text_of(document_.file().filename());
-    const QString file = ask_file_to_write("Save lens", suggested, lens_filter);
+    const std::filesystem::path& present = document_.file();
+    const bool same_name = document_.is_own_file();
+    QString suggested = QStringLiteral("lens.json");
+    if (!present.empty()) {
+        // Beside "lens.json" of another program there is room for "lens_ghostlight.json".
+        suggested = same_name                    ? text_of(present.filename())
+                    : has_own_extension(present) ? text_of(present.stem()) + "_ghostlight.json"
+                                                 : text_of(present.stem()) + ".json";
+    }
+    const QString file = ask_file_to_write("Save lens", suggested, own_filter);
     if (file.isEmpty()) {
         return false;
     }
@@ -151,7 +200,7 @@ bool FileActions::choose_and_save() {
 
 void FileActions::choose_and_open() {
     const QString file =
-        QFileDialog::getOpenFileName(window_, "Open lens", settings::folder(), lens_filter);
+        QFileDialog::getOpenFileName(window_, "Open lens", settings::folder(), lens_open_filter());
     if (!file.isEmpty()) {
         settings::set_folder(QFileInfo(file).absolutePath());
         open(file.toStdString());
@@ -214,6 +263,38 @@ bool FileActions::export_png(const std::filesystem::path& file) {
         }
         write_display(*image, shown_.exposure_ev(), file);
     });
+}
+
+bool FileActions::export_lens(const std::filesystem::path& file) {
+    return attempt(QStringLiteral("Wrote %1").arg(text_of(file.filename())), [&] {
+        Notes notes;
+        write_file_safely(file, writable_format(file).write(document_.lens(), notes));
+        Q_EMIT exported(text_of(file.filename()), notes);
+    });
+}
+
+bool FileActions::export_ghost(const std::filesystem::path& file) {
+    return attempt(QStringLiteral("Wrote %1").arg(text_of(file.filename())), [&] {
+        const auto ghosts = shown_.ghosts();
+        if (ghosts.empty()) {
+            throw Error("no ghost is chosen");
+        }
+        Notes notes;
+        const Prescription lens = document_.configured_lens();
+        write_file_safely(
+            file, unfolded_ghost(lens, name(ghosts.front(), lens.surfaces.size()), file, notes));
+        Q_EMIT exported(text_of(file.filename()), notes);
+    });
+}
+
+void FileActions::choose_glass_folders() {
+    const auto folders = ask_glass_folders(settings::glass_folders());
+    if (!folders) {
+        return;
+    }
+    settings::set_glass_folders(*folders);
+    use_glass_folders();
+    document_.edit_lens(with_known_glasses(document_.lens()), "look up unknown glasses");
 }
 
 void FileActions::fill_bundled(QMenu& menu) {

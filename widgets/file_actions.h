@@ -2,12 +2,17 @@
 
 #include <QObject>
 #include <QString>
+#include <QStringList>
 
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <vector>
 
+#include "core/error.h"
 #include "core/flare/flare_image.h"
+#include "core/ghosts/ghost_path.h"
 #include "core/ghosts/ghost_table.h"
 
 class QMenu;
@@ -31,6 +36,7 @@ class FileActions : public QObject {
         std::function<std::shared_ptr<const GhostTable>()> table;
         std::function<std::shared_ptr<const FlareImage>()> image;
         std::function<double()> exposure_ev;
+        std::function<std::vector<GhostPath>()> ghosts;  ///< that are chosen
     };
 
     FileActions(Document& document, const Actions& actions, Banner& banner, StatusLine& status,
@@ -44,6 +50,13 @@ class FileActions : public QObject {
     bool export_table(const std::filesystem::path& file);
     bool export_exr(const std::filesystem::path& file);
     bool export_png(const std::filesystem::path& file);
+    /// In the format that the name's extension says.
+    bool export_lens(const std::filesystem::path& file);
+    /// The first of the chosen ghosts, as a .zmx.
+    bool export_ghost(const std::filesystem::path& file);
+
+    /// Asks for the folders with catalogues, keeps them and looks glasses up in them from now on.
+    void choose_glass_folders();
 
     void fill_bundled(QMenu& menu);
     void fill_recent(QMenu& menu);
@@ -52,6 +65,13 @@ class FileActions : public QObject {
     std::function<Answer()> ask_about_unsaved;
     /// Title, suggested name, filter; an empty answer cancels.
     std::function<QString(const QString&, const QString&, const QString&)> ask_file_to_write;
+
+    /// The folders in use; nothing to leave them as they are.
+    std::function<std::optional<QStringList>(const QStringList&)> ask_glass_folders;
+
+   Q_SIGNALS:
+    /// A lens was written for another program, and what became of it.
+    void exported(const QString& file, const ghostlight::Notes& notes);
 
    private:
     bool choose_and_save();

@@ -24,16 +24,21 @@
 #include "core/units.h"
 #include "widgets/autosave.h"
 #include "widgets/file_actions.h"
+#include "widgets/glass_folders.h"
 #include "widgets/models/ghost_table_model.h"
+#include "widgets/models/note_table_model.h"
 #include "widgets/panel_header.h"
 #include "widgets/panels/banner.h"
+#include "widgets/panels/first_order_panel.h"
 #include "widgets/panels/flare_panel.h"
 #include "widgets/panels/ghost_panel.h"
+#include "widgets/panels/import_report_panel.h"
 #include "widgets/panels/layout_panel.h"
 #include "widgets/panels/prescription_panel.h"
 #include "widgets/panels/scene_bar.h"
 #include "widgets/panels/status_line.h"
 #include "widgets/settings.h"
+#include "widgets/unknown_glass.h"
 
 namespace ghostlight {
 
@@ -41,18 +46,20 @@ MainWindow::MainWindow(bool remembers) : remembers_(remembers), actions_(this) {
     setObjectName("workbench");
     setAcceptDrops(true);
     setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks);
+    use_glass_folders();
     build_panels();
     jobs_ = std::make_unique<Jobs>(document_, selection_);
     files_ = new FileActions(
         document_, actions_, *banner_, *status_,
         {[this] { return ghosts_->model().is_stale() ? nullptr : ghosts_->model().table(); },
          [this] { return picture_ && picture_->is_final ? picture_->image : nullptr; },
-         [this] { return flare_->exposure_ev(); }},
+         [this] { return flare_->exposure_ev(); }, [this] { return selection_.ghosts(); }},
         this);
     build_menus();
     connect_document();
     connect_jobs();
     connect_actions();
+    connect_reports();
     resize(1720, 1000);
     arrange_panels();
     if (remembers_) {
@@ -93,6 +100,8 @@ void MainWindow::build_panels() {
     layout_ = new LayoutPanel;
     flare_ = new FlarePanel;
     ghosts_ = new GhostPanel(selection_, actions_);
+    report_ = new ImportReportPanel(document_, actions_);
+    first_order_ = new FirstOrderPanel(document_, actions_);
     setCentralWidget(flare_);
     setCorner(Qt::TopLeftCorner, Qt::LeftDockWidgetArea);
     setCorner(Qt::TopRightCorner, Qt::RightDockWidgetArea);
@@ -102,6 +111,9 @@ void MainWindow::build_panels() {
         add_dock(prescription_, "prescription", "Prescription", Qt::LeftDockWidgetArea);
     layout_dock_ = add_dock(layout_, "layout", "Layout", Qt::TopDockWidgetArea);
     ghost_dock_ = add_dock(ghosts_, "ghosts", "Ghosts", Qt::RightDockWidgetArea);
+    first_order_dock_ =
+        add_dock(first_order_, "first_order", "First order", Qt::RightDockWidgetArea);
+    report_dock_ = add_dock(report_, "import_report", "Import report", Qt::BottomDockWidgetArea);
 
     status_ = new StatusLine(document_);
     statusBar()->setSizeGripEnabled(false);
@@ -121,20 +133,23 @@ void MainWindow::build_menus() {
             [this, bundled] { files_->fill_bundled(*bundled); });
     QMenu* recent = file->addMenu("Open &Recent");
     connect(recent, &QMenu::aboutToShow, this, [this, recent] { files_->fill_recent(*recent); });
-    actions_.fill(*file, {"-", "file.save", "file.save_as", "-", "file.export_table",
-                          "file.export_exr", "file.export_png", "-", "file.quit"});
+    actions_.fill(*file, {"-", "file.save", "file.save_as", "-", "file.export_lens",
+                          "file.export_ghost", "file.export_table", "file.export_exr",
+                          "file.export_png", "-", "file.glass_folders", "-", "file.quit"});
     actions_.add_menu(bar, "&Edit",
                       {"edit.undo", "edit.redo", "-", "edit.insert", "edit.delete", "edit.move_up",
-                       "edit.move_down", "edit.make_stop"});
+                       "edit.move_down", "edit.make_stop", "-", "edit.mend_glass"});
     actions_.add_menu(
         bar, "&Ghosts",
         {"ghosts.copy", "ghosts.clear", "-", "ghosts.all", "ghosts.above_3", "ghosts.above_2"});
     QMenu* view = actions_.add_menu(bar, "&View", {"view.fit", "view.expose", "-"});
-    for (QDockWidget* dock : {prescription_dock_, layout_dock_, ghost_dock_}) {
+    for (QDockWidget* dock :
+         {prescription_dock_, layout_dock_, ghost_dock_, first_order_dock_, report_dock_}) {
         view->addAction(dock->toggleViewAction());
     }
-    actions_.fill(*view,
-                  {"view.reset", "-", "view.aspheres", "view.comments", "-", "view.light_theme"});
+    actions_.fill(*view, {"view.reset", "-", "report.all", "report.matters", "report.copy",
+                          "first_order.copy", "-", "view.aspheres", "view.comments", "-",
+                          "view.light_theme"});
     actions_.add_menu(bar, "&Help", {"help.guide", "help.about"});
 }
 
@@ -144,12 +159,20 @@ void MainWindow::arrange_panels() {
         Qt::DockWidgetArea area;
     } places[] = {{prescription_dock_, Qt::LeftDockWidgetArea},
                   {layout_dock_, Qt::TopDockWidgetArea},
-                  {ghost_dock_, Qt::RightDockWidgetArea}};
+                  {ghost_dock_, Qt::RightDockWidgetArea},
+                  {first_order_dock_, Qt::RightDockWidgetArea},
+                  {report_dock_, Qt::BottomDockWidgetArea}};
     for (const auto& place : places) {
         place.dock->setFloating(false);
         addDockWidget(place.area, place.dock);
         place.dock->show();
     }
+    // First-order data take a third of the right side; the report comes when it has something
+    // to say.
+    report_dock_->setVisible(report_->model().rowCount() > 0);
+    resizeDocks({ghost_dock_, first_order_dock_}, {height() * 60 / 100, height() * 40 / 100},
+                Qt::Vertical);
+    resizeDocks({report_dock_}, {height() * 22 / 100}, Qt::Vertical);
     // Tables need a certain width and no more; pictures take what is left.
     const int left = std::clamp(width() * 32 / 100, 380, 640);
     const int right = std::clamp(width() * 24 / 100, 300, 620);
@@ -248,6 +271,33 @@ void MainWindow::connect_actions() {
     actions_.on("help.guide", [this] { show_guide(); });
 }
 
+void MainWindow::connect_reports() {
+    connect(report_, &ImportReportPanel::surface_chosen, this, [this](int row) {
+        prescription_dock_->show();
+        prescription_dock_->raise();
+        prescription_->select_surface(row);
+    });
+    connect(report_, &ImportReportPanel::wants_attention, this, [this] {
+        const bool was_hidden = report_dock_->isHidden();
+        report_dock_->show();
+        report_dock_->raise();
+        if (was_hidden && !report_dock_->isFloating()) {
+            resizeDocks({report_dock_}, {height() * 22 / 100}, Qt::Vertical);
+        }
+    });
+    connect(files_, &FileActions::exported, report_, &ImportReportPanel::show_export);
+    connect(banner_, &Banner::offer_taken, this, [this](const QString& topic) {
+        if (topic == "trace") {
+            actions_["edit.mend_glass"].trigger();
+        }
+    });
+    const auto offer_mending = [this] {
+        actions_["edit.mend_glass"].setEnabled(first_unknown_glass(document_.lens()).has_value());
+    };
+    connect(&document_, &Document::changed, this, offer_mending);
+    offer_mending();
+}
+
 void MainWindow::offer_recovery() {
     const auto leftover = Autosave::find_leftover(Autosave::default_folder());
     if (!leftover) {
@@ -304,8 +354,22 @@ void MainWindow::show_picture(const FlarePicture& picture) {
     flare_->set_dimmed(picture.revision != document_.revision());
 }
 
+bool MainWindow::show_unknown_glass() {
+    const auto row = first_unknown_glass(document_.lens());
+    if (!row) {
+        return false;
+    }
+    banner_->show_offer("trace",
+                        why_unknown(document_.lens(), *row) +
+                            QStringLiteral(" Flare and ghosts follow once it is mended."),
+                        "Choose a glass…");
+    return true;
+}
+
 void MainWindow::show_failure(const QString& reason) {
-    banner_->show_text("trace", reason);
+    if (!show_unknown_glass()) {
+        banner_->show_text("trace", reason);
+    }
     flare_->set_dimmed(true);
     ghosts_->set_failed();
 }

@@ -17,8 +17,10 @@ namespace ghostlight {
 class Autosave;
 class Banner;
 class FileActions;
+class FirstOrderPanel;
 class FlarePanel;
 class GhostPanel;
+class ImportReportPanel;
 class LayoutPanel;
 class PrescriptionPanel;
 class SceneBar;
@@ -51,6 +53,8 @@ class MainWindow : public QMainWindow {
     LayoutPanel& layout_panel() { return *layout_; }
     FlarePanel& flare_panel() { return *flare_; }
     GhostPanel& ghost_panel() { return *ghosts_; }
+    ImportReportPanel& import_report_panel() { return *report_; }
+    FirstOrderPanel& first_order_panel() { return *first_order_; }
     const std::optional<FlarePicture>& picture() const { return picture_; }
 
    Q_SIGNALS:
@@ -69,10 +73,13 @@ class MainWindow : public QMainWindow {
     void connect_document();
     void connect_jobs();
     void connect_actions();
+    void connect_reports();
     void offer_recovery();
     void show_scene();
     void show_picture(const FlarePicture& picture);
     void show_failure(const QString& reason);
+    /// Says which glass is not known, with the way to mend it; false if all are.
+    bool show_unknown_glass();
     void show_title();
     void place_banner();
     void show_about();
@@ -92,12 +99,16 @@ class MainWindow : public QMainWindow {
     LayoutPanel* layout_ = nullptr;
     FlarePanel* flare_ = nullptr;
     GhostPanel* ghosts_ = nullptr;
+    ImportReportPanel* report_ = nullptr;
+    FirstOrderPanel* first_order_ = nullptr;
     StatusLine* status_ = nullptr;
     Banner* banner_ = nullptr;
     FileActions* files_ = nullptr;
     QDockWidget* prescription_dock_ = nullptr;
     QDockWidget* layout_dock_ = nullptr;
     QDockWidget* ghost_dock_ = nullptr;
+    QDockWidget* report_dock_ = nullptr;
+    QDockWidget* first_order_dock_ = nullptr;
 
     QTimer scene_update_;  ///< many changes, one drawing
     std::optional<FlarePicture> picture_;

@@ -57,4 +57,10 @@ QString folder() { return QSettings().value("folder", QDir::homePath()).toString
 
 void set_folder(const QString& folder) { QSettings().setValue("folder", folder); }
 
+QStringList glass_folders() { return QSettings().value("glass_folders").toStringList(); }
+
+void set_glass_folders(const QStringList& folders) {
+    QSettings().setValue("glass_folders", folders);
+}
+
 }  // namespace ghostlight::settings

@@ -36,6 +36,10 @@ void set_shows_comments(bool shown);
 QString folder();
 void set_folder(const QString& folder);
 
+/// Folders with catalogues of glasses, in the order in which they are searched.
+QStringList glass_folders();
+void set_glass_folders(const QStringList& folders);
+
 }  // namespace settings
 
 }  // namespace ghostlight

@@ -6,6 +6,7 @@
 #include "app/cli/output.h"
 #include "app/cli/report.h"
 #include "core/io/formats.h"
+#include "core/io/import_report.h"
 #include "core/io/imported_lens.h"
 #include "core/io/lens_file.h"
 #include "core/io/read_text.h"
@@ -20,36 +21,6 @@ struct ConvertOptions {
     bool report = false, halve = false, invert = false;
     OutputOptions output;
 };
-
-std::string_view fate_name(Note::Fate fate) {
-    switch (fate) {
-        case Note::Fate::noticed:
-            return "noticed";
-        case Note::Fate::read:
-            return "read";
-        case Note::Fate::converted:
-            return "converted";
-        case Note::Fate::assumed:
-            return "assumed";
-        case Note::Fate::left_out:
-            return "left out";
-    }
-    return {};
-}
-
-/// Two lines at most for each note, what matters for flare marked.
-std::string readable(const Notes& notes) {
-    std::string text;
-    for (const Note& note : notes) {
-        const char mark = note.severity == Note::Severity::error ? '!'
-                          : note.matters_for_flare               ? '*'
-                                                                 : ' ';
-        text += fmt::format("{} {}{}{}: {}\n", mark, note.where, note.where.empty() ? "" : ": ",
-                            fate_name(note.fate), note.text);
-        if (!note.proposal.empty()) text += fmt::format("      -> {}\n", note.proposal);
-    }
-    return text;
-}
 
 void append(Table& table, std::string_view step, const Notes& notes) {
     for (const Note& note : notes)
@@ -102,9 +73,10 @@ void run(const ConvertOptions& options) {
     }
     if (!options.output.csv && !options.output.json) {
         std::string text = fmt::format("import: {} ({}): {}\n{}", in.string(), format_name(in),
-                                       lens.name, readable(file.notes));
+                                       lens.name, notes_text(file.notes));
         if (!options.out.empty())
-            text += fmt::format("export: {} ({})\n{}", options.out, written_as, readable(exported));
+            text +=
+                fmt::format("export: {} ({})\n{}", options.out, written_as, notes_text(exported));
         text += "* matters for flare   ! has to be mended before the lens can be traced\n";
         write_text(text, options.output);
         return;

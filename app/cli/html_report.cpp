@@ -11,6 +11,7 @@
 #include "core/io/chart_svg.h"
 #include "core/io/image_file.h"
 #include "core/io/layout_svg.h"
+#include "core/io/lens_quantities.h"
 #include "core/io/table_file.h"
 
 namespace ghostlight::cli {

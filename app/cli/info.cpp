@@ -7,6 +7,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/lens_data.h"
 #include "app/cli/report.h"
+#include "core/io/lens_quantities.h"
 
 namespace ghostlight::cli {
 namespace {

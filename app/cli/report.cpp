@@ -63,18 +63,6 @@ void write_text(std::string_view text, const OutputOptions& options) {
         write_file_safely(options.file, text);
 }
 
-std::string_view severity_name(Note::Severity severity) {
-    switch (severity) {
-        case Note::Severity::info:
-            return "note";
-        case Note::Severity::warning:
-            return "warning";
-        case Note::Severity::error:
-            return "error";
-    }
-    return {};
-}
-
 void print_notes(const Notes& notes, Note::Severity least) {
     for (const Note& note : notes) {
         if (note.severity < least) continue;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/cli/options.h"
+#include "core/io/import_report.h"
 #include "core/io/table.h"
 
 namespace ghostlight::cli {
@@ -34,9 +35,6 @@ void write_report(const Report& report, const OutputOptions& options);
 
 /// Readable text goes out as it is; for a command whose form for people is not a plain table.
 void write_text(std::string_view text, const OutputOptions& options);
-
-/// "note", "warning" or "error".
-std::string_view severity_name(Note::Severity severity);
 
 /// What a reader noticed, one line each on standard error: all of it, or warnings only.
 void print_notes(const Notes& notes, Note::Severity least);

@@ -110,7 +110,7 @@ void note_left_behind(const Prescription& lens, std::string_view format, Notes& 
             fmt::format("{} fields that other programs or later versions added", unknown));
 }
 
-double half_field_deg(const Prescription& lens) {
+double exported_half_field_deg(const Prescription& lens) {
     const auto order = first_order_of(lens);
     const double half = 0.5 * std::hypot(lens.sensor.width_mm, lens.sensor.height_mm);
     if (order && std::isfinite(order->efl_mm))

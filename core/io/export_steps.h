@@ -33,7 +33,7 @@ std::string exact(double value);
 void note_left_behind(const Prescription& lens, std::string_view format, Notes& notes);
 
 /// Half of the field that the sensor's corner sees at d; the source's where the sensor tells none.
-double half_field_deg(const Prescription& lens);
+double exported_half_field_deg(const Prescription& lens);
 
 /// EPD that gives the stop its working radius, mm; nothing without an entrance pupil.
 std::optional<double> entrance_pupil_diameter_mm(const Prescription& lens);

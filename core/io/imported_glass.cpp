@@ -1,6 +1,7 @@
 #include "core/io/imported_glass.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -44,22 +45,6 @@ std::size_t edits_between(std::string_view a, std::string_view b) {
     return row.back();
 }
 
-std::string nearest_by_name(std::string_view name) {
-    constexpr std::size_t longest = 40;
-    const std::string wanted = letters_and_digits(name.substr(0, longest));
-    std::vector<std::pair<std::size_t, std::string>> found;
-    const auto library = glass_library();
-    for (const GlassFile& catalog : library->catalogs)
-        for (const CataloguedGlass& glass : catalog.glasses)
-            found.emplace_back(edits_between(wanted, letters_and_digits(glass.medium.name)),
-                               glass.medium.name);
-    std::ranges::stable_sort(found, {}, &std::pair<std::size_t, std::string>::first);
-    std::string text;
-    for (std::size_t i = 0; i < std::min(offered, found.size()); ++i)
-        text += (i > 0 ? ", " : "") + found[i].second;
-    return text;
-}
-
 /// That it was found, where, and what speaks against it.
 void note_match(const GlassMatch& match, const NamedGlass& named, bool real, Notes& notes) {
     const std::string label = match.glass.medium.name + " (" + match.glass.catalog + ")";
@@ -85,6 +70,24 @@ void note_match(const GlassMatch& match, const NamedGlass& named, bool real, Not
 }
 
 }  // namespace
+
+std::vector<std::string> nearest_names(std::string_view name, std::size_t count) {
+    constexpr std::size_t longest = 40;
+    const std::string wanted = letters_and_digits(name.substr(0, longest));
+    std::vector<std::pair<std::size_t, std::string>> found;
+    const auto library = glass_library();
+    for (const GlassFile& catalog : library->catalogs)
+        for (const CataloguedGlass& glass : catalog.glasses)
+            found.emplace_back(edits_between(wanted, letters_and_digits(glass.medium.name)),
+                               glass.medium.name);
+    std::ranges::stable_sort(found, {}, &std::pair<std::size_t, std::string>::first);
+    std::vector<std::string> names;
+    for (const auto& [edits, each] : found) {
+        if (names.size() == count) break;
+        if (std::ranges::find(names, each) == names.end()) names.push_back(each);
+    }
+    return names;
+}
 
 bool is_real_glass(std::optional<double> nd, std::optional<double> vd) {
     if (!nd || !(*nd >= least_nd && *nd <= most_nd)) return false;
@@ -125,7 +128,7 @@ Medium resolve_glass(const NamedGlass& named, Notes& notes) {
         fmt::format("not in {}, and the file gives no real nd and Vd", where_looked);
     note_to_mend(notes, named.where, fmt::format("glass {} is {}", in_quotes(named.name), why),
                  fmt::format("name a glass of the catalogue (similar names: {}), or give nd and Vd",
-                             nearest_by_name(named.name)));
+                             fmt::join(nearest_names(named.name, offered), ", ")));
     return {named.name, UnknownGlass{why}};
 }
 

@@ -28,6 +28,9 @@ Medium resolve_glass(const NamedGlass& named, Notes& notes);
 Medium numbered_glass(const std::string& label, double nd, std::optional<double> vd,
                       const std::string& where, Notes& notes);
 
+/// Glasses of all catalogues whose names are spelt most like a name, best first, each once.
+std::vector<std::string> nearest_names(std::string_view name, std::size_t count);
+
 /// Real numbers, not what programs write where they know none: 0/0, 1/0, 1.5/40.
 bool is_real_glass(std::optional<double> nd, std::optional<double> vd);
 

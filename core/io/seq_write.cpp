@@ -206,7 +206,7 @@ std::string write_seq(const Prescription& lens, Notes& notes) {
         note_converted(
             notes, "stop",
             fmt::format("its radius is written as an entrance pupil {} mm wide", exact(*pupil)));
-    const double field = half_field_deg(lens);
+    const double field = exported_half_field_deg(lens);
     text += fmt::format(
         "DIM M\nWL 656.2725 587.5618 486.1327\nREF 2\nWTW 1 1 1\nXAN 0 0 0\n"
         "YAN 0 {} {}\n",

@@ -16,7 +16,8 @@ std::string unfolded_ghost(const Prescription& lens, const GhostPath& path, Note
     const std::vector<PathEvent> way = events(path, lens.surfaces.size());
     Prescription titled = lens;
     titled.name = fmt::format("{}: ghost {}", lens.name, name(path));
-    std::string text = zmx_header_text(titled, "FLOA", half_field_deg(lens)) + zmx_object_text();
+    std::string text =
+        zmx_header_text(titled, "FLOA", exported_half_field_deg(lens)) + zmx_object_text();
     bool stop_is_marked = false;
     for (std::size_t k = 0; k < way.size(); ++k) {
         const PathEvent& event = way[k];

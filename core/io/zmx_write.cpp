@@ -75,7 +75,8 @@ std::string configurations_text(const Prescription& lens, Notes& notes) {
 
 std::string write_zmx(const Prescription& lens, Notes& notes) {
     std::string text =
-        zmx_header_text(lens, aperture_line(lens, notes), half_field_deg(lens)) + zmx_object_text();
+        zmx_header_text(lens, aperture_line(lens, notes), exported_half_field_deg(lens)) +
+        zmx_object_text();
     const std::size_t count = lens.surfaces.size();
     for (std::size_t row = 0; row < count; ++row) {
         const Surface& surface = lens.surfaces[row];

@@ -13,6 +13,7 @@
 #include "widgets/number_text.h"
 #include "widgets/palette.h"
 #include "widgets/prescription_edits.h"
+#include "widgets/unknown_glass.h"
 
 namespace ghostlight {
 
@@ -61,6 +62,10 @@ QString shown_curve(const BaseCurve& curve) {
 
 std::string field_key(const QModelIndex& index, const std::string& configuration) {
     return std::to_string(index.row()) + '/' + std::to_string(index.column()) + '/' + configuration;
+}
+
+bool is_unknown(const Medium& medium) {
+    return std::holds_alternative<UnknownGlass>(medium.dispersion);
 }
 
 std::size_t row_of(const QModelIndex& index) { return static_cast<std::size_t>(index.row()); }
@@ -119,8 +124,13 @@ QString PrescriptionModel::display_text(std::size_t row, int column) const {
                        : shown_curve(surface.curve);
         case thickness:
             return at_least_decimals(thickness_mm(shown_, configuration_, row), 3);
-        case medium:
-            return true_minus(text_of_medium(surface.medium_after));
+        case medium: {
+            // In words, too, for whoever does not see the colour.
+            const QString text = true_minus(text_of_medium(surface.medium_after));
+            return is_unknown(surface.medium_after) && !surface.medium_after.name.empty()
+                       ? text + QStringLiteral(" ?")
+                       : text;
+        }
         case semi_diameter:
             return at_least_decimals(surface.semi_diameter_mm, 2);
         case conic:
@@ -166,6 +176,13 @@ QString PrescriptionModel::edit_text(std::size_t row, int column) const {
 
 QString PrescriptionModel::tool_tip(std::size_t row, int column) const {
     const Surface& surface = shown_.surfaces[row];
+    if (column == medium && is_unknown(surface.medium_after)) {
+        const QStringList names = offered_glasses(surface.medium_after);
+        return why_unknown(shown_, row) +
+               (names.isEmpty() ? QString()
+                                : QStringLiteral("\nNearest names: %1").arg(names.join(", "))) +
+               QStringLiteral("\nType a catalogue name, or nd / Vd.");
+    }
     if (column == medium && !is_air(surface.medium_after)) {
         try {
             return QStringLiteral("nd %1, Vd %2")
@@ -219,7 +236,15 @@ QVariant PrescriptionModel::data(const QModelIndex& index, int role) const {
         case Qt::BackgroundRole:
             return index.row() == marked_row_ ? QVariant(QBrush(current_palette().line))
                                               : QVariant();
+        case offers_role:
+            return column == medium ? QVariant(offered_glasses(shown_.surfaces[row].medium_after))
+                                    : QVariant();
+        case must_be_mended_role:
+            return column == medium && is_unknown(shown_.surfaces[row].medium_after);
         case Qt::ForegroundRole: {
+            if (column == medium && is_unknown(shown_.surfaces[row].medium_after)) {
+                return current_palette().red_orange;
+            }
             const bool replaced = column == thickness && row + 1 == shown_.surfaces.size() &&
                                   shown_.sensor.at_paraxial_focus;
             const bool bare =

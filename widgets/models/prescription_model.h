@@ -27,6 +27,10 @@ class PrescriptionModel : public QAbstractTableModel {
         comment,
         column_count
     };
+    enum Role {
+        offers_role = Qt::UserRole,  ///< glasses that may be meant, best first
+        must_be_mended_role          ///< true where the lens cannot be traced as it stands
+    };
     explicit PrescriptionModel(Document& document, QObject* parent = nullptr);
 
     int rowCount(const QModelIndex& parent = {}) const override;

@@ -5,9 +5,12 @@
 #include <QKeyEvent>
 #include <QLineEdit>
 #include <QStyle>
+#include <QTimer>
+
+#include <set>
 
 #include "core/error.h"
-#include "core/io/lens_file.h"
+#include "core/io/glass_library.h"
 #include "widgets/models/prescription_model.h"
 
 namespace ghostlight {
@@ -17,21 +20,48 @@ namespace {
 /// Which cell an editor belongs to.
 constexpr const char* cell_property = "cell";
 
-QStringList suggestions(int column) {
-    if (column == PrescriptionModel::coating) {
+/// Every glass at hand, by name, each once.
+QStringList all_glasses() {
+    std::set<QString> names;
+    try {
+        const auto library = glass_library();
+        for (const GlassFile& catalog : library->catalogs) {
+            for (const CataloguedGlass& glass : catalog.glasses) {
+                names.insert(QString::fromStdString(glass.medium.name));
+            }
+        }
+    } catch (const Error&) {
+        // No catalogue: nothing to suggest.
+    }
+    return {names.begin(), names.end()};
+}
+
+QStringList suggestions(const QModelIndex& index) {
+    if (index.column() == PrescriptionModel::coating) {
         return {"none", "MgF2 λ/4 550", "ideal λ/4 550", "1.38 λ/4 550"};
     }
-    QStringList names;
-    if (column == PrescriptionModel::medium) {
-        try {
-            for (const Medium& glass : bundled_glasses().glasses) {
-                names << QString::fromStdString(glass.name);
-            }
-        } catch (const Error&) {
-            // No catalogue: nothing to suggest.
+    if (index.column() != PrescriptionModel::medium) {
+        return {};
+    }
+    QStringList names = index.data(PrescriptionModel::offers_role).toStringList();
+    const QStringList offers = names;
+    for (const QString& name : all_glasses()) {
+        if (!offers.contains(name)) {
+            names << name;
         }
     }
     return names;
+}
+
+/// What may be meant comes first, unasked, under a cell that must be mended.
+void offer_at_once(QLineEdit* editor) {
+    QTimer::singleShot(0, editor, [editor] {
+        if (editor->completer() != nullptr && !editor->isModified() && editor->isVisible()) {
+            editor->selectAll();
+            editor->completer()->setCompletionPrefix(QString());
+            editor->completer()->complete();
+        }
+    });
 }
 
 void mark(QLineEdit& editor, bool refused) {
@@ -56,12 +86,17 @@ QWidget* PrescriptionDelegate::createEditor(QWidget* parent, const QStyleOptionV
         index.column() == PrescriptionModel::aspheric) {
         editor->setMinimumWidth(200);  // what is typed here may be longer than the column is wide
     }
-    const QStringList words = suggestions(index.column());
+    const QStringList words = suggestions(index);
     if (!words.isEmpty()) {
         auto* completer = new QCompleter(words, editor);
         completer->setCaseSensitivity(Qt::CaseInsensitive);
         completer->setFilterMode(Qt::MatchContains);
+        completer->setMaxVisibleItems(10);
         editor->setCompleter(completer);
+        completer->popup()->setMinimumWidth(160);
+        if (index.data(PrescriptionModel::must_be_mended_role).toBool()) {
+            offer_at_once(editor);
+        }
     }
     connect(editor, &QLineEdit::textEdited, this, [this, editor] {
         mark(*editor, false);
@@ -102,7 +137,10 @@ bool PrescriptionDelegate::eventFilter(QObject* watched, QEvent* event) {
             return true;
         }
     }
-    if (event->type() == QEvent::FocusOut && editor->isVisible() && !accepts(*editor)) {
+    const bool to_popup = event->type() == QEvent::FocusOut &&
+                          static_cast<QFocusEvent*>(event)->reason() == Qt::PopupFocusReason;
+    if (event->type() == QEvent::FocusOut && !to_popup && editor->isVisible() &&
+        !accepts(*editor)) {
         return true;  // stays open until it is put right or given up
     }
     return TableDelegate::eventFilter(watched, event);

@@ -18,6 +18,7 @@
 #include "widgets/panels/plain_table.h"
 #include "widgets/panels/prescription_delegate.h"
 #include "widgets/settings.h"
+#include "widgets/unknown_glass.h"
 
 namespace ghostlight {
 
@@ -116,6 +117,7 @@ void PrescriptionPanel::connect_actions(const Actions& actions) {
             go_to(row + 1);
         }
     });
+    connect(&actions["edit.mend_glass"], &QAction::triggered, this, [this] { mend_glass(); });
     on_row("edit.make_stop", [this](int row) { model_->make_stop(row); });
 
     const auto on_columns = [this, &actions](const char* id, bool shown, void (*keep)(bool)) {
@@ -139,15 +141,60 @@ void PrescriptionPanel::connect_actions(const Actions& actions) {
 
 void PrescriptionPanel::show_menu(const QPoint& position, const Actions& actions) {
     QMenu menu;
+    add_offers(menu, table_->indexAt(position));
     actions.fill(menu, {"edit.insert", "edit.delete", "-", "edit.move_up", "edit.move_down", "-",
                         "edit.make_stop", "-", "edit.undo", "edit.redo"});
     menu.exec(table_->viewport()->mapToGlobal(position));
+}
+
+void PrescriptionPanel::add_offers(QMenu& menu, const QModelIndex& index) {
+    const QStringList offers = index.data(PrescriptionModel::offers_role).toStringList();
+    if (offers.isEmpty()) {
+        return;
+    }
+    menu.addAction("Nearest glasses:")->setEnabled(false);
+    for (const QString& glass : offers) {
+        menu.addAction(glass, this, [this, glass, cell = QPersistentModelIndex(index)] {
+            model_->setData(cell, glass, Qt::EditRole);
+        });
+    }
+    menu.addSeparator();
+}
+
+void PrescriptionPanel::select_surface(int row) {
+    if (row >= 0 && row < model_->rowCount()) {
+        go_to(row);
+        table_->scrollTo(table_->currentIndex());
+    }
+}
+
+bool PrescriptionPanel::mend_glass() {
+    const auto row = first_unknown_glass(document_.lens());
+    if (!row) {
+        return false;
+    }
+    const QModelIndex cell = model_->index(static_cast<int>(*row), PrescriptionModel::medium);
+    table_->setFocus();
+    table_->setCurrentIndex(cell);
+    table_->scrollTo(cell);
+    table_->edit(cell);
+    return true;
 }
 
 void PrescriptionPanel::follow_document() {
     pages_->setCurrentIndex(document_.is_empty() ? 0 : 1);
     if (document_.is_empty()) {
         header_->set_state(QString());
+        return;
+    }
+    const auto unknown = std::ranges::count_if(document_.lens().surfaces, [](const Surface& each) {
+        return std::holds_alternative<UnknownGlass>(each.medium_after.dispersion);
+    });
+    header_->set_warning(unknown > 0);
+    if (unknown > 0) {
+        header_->set_state(
+            unknown == 1 ? QStringLiteral("1 glass is not known: mend it here")
+                         : QStringLiteral("%1 glasses are not known: mend them here").arg(unknown));
         return;
     }
     QString state = QStringLiteral("mm · R > 0: centre towards the sensor");

@@ -3,6 +3,8 @@
 #include <QWidget>
 
 class QLabel;
+class QMenu;
+class QModelIndex;
 class QStackedWidget;
 class QTableView;
 
@@ -25,10 +27,15 @@ class PrescriptionPanel : public QWidget {
     /// Marks the surface that is pointed at elsewhere; 0 for none.
     void set_hovered_row(int row);
     QString reason() const;
+    /// The surface in that row, from 0, is the one in hand.
+    void select_surface(int row);
+    /// Opens the editor of the first glass that nobody knows; false if there is none.
+    bool mend_glass();
 
    private:
     void connect_actions(const Actions& actions);
     void show_menu(const QPoint& position, const Actions& actions);
+    void add_offers(QMenu& menu, const QModelIndex& index);
     void follow_document();
     void show_columns();
     void show_reason(const QString& reason);

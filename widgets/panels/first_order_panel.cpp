@@ -1,0 +1,126 @@
+#include "widgets/panels/first_order_panel.h"
+
+#include <QClipboard>
+#include <QGuiApplication>
+#include <QHeaderView>
+#include <QMenu>
+#include <QStackedWidget>
+#include <QTableView>
+#include <QVBoxLayout>
+
+#include <utility>
+
+#include "core/error.h"
+#include "core/units.h"
+#include "widgets/actions.h"
+#include "widgets/document.h"
+#include "widgets/models/quantity_model.h"
+#include "widgets/number_text.h"
+#include "widgets/panel_header.h"
+#include "widgets/panels/empty_state.h"
+#include "widgets/panels/plain_table.h"
+#include "widgets/panels/table_delegate.h"
+
+namespace ghostlight {
+
+namespace {
+
+constexpr const char* what_is_here =
+    "The lens's first-order data: focal length, pupils, principal points, field and length.";
+
+QTableView* make_table(QAbstractItemModel* model, QObject* parent) {
+    QTableView* table = plain_table(model, new TableDelegate(-1, -1, parent));
+    table->setObjectName("first_order_table");
+    table->setSelectionMode(QAbstractItemView::ExtendedSelection);
+    table->setSelectionBehavior(QAbstractItemView::SelectRows);
+    table->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    table->horizontalHeader()->setStretchLastSection(true);
+    return table;
+}
+
+}  // namespace
+
+FirstOrderPanel::FirstOrderPanel(Document& document, const Actions& actions, QWidget* parent)
+    : QWidget(parent),
+      document_(document),
+      model_(new QuantityModel(this)),
+      header_(new PanelHeader("First order")),
+      table_(make_table(model_, this)),
+      empty_(new EmptyState(what_is_here, "Open a lens…")),
+      cannot_(new EmptyState(QString(), QString())),
+      pages_(new QStackedWidget) {
+    pages_->addWidget(empty_);
+    pages_->addWidget(table_);
+    pages_->addWidget(cannot_);
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(0);
+    column->addWidget(header_);
+    column->addWidget(pages_, 1);
+
+    delay_.setSingleShot(true);
+    delay_.setInterval(0);
+    connect(&delay_, &QTimer::timeout, this, &FirstOrderPanel::work_out);
+    connect(empty_, &EmptyState::action_triggered, &actions["file.open"], &QAction::trigger);
+    connect(&document_, &Document::changed, this, &FirstOrderPanel::follow_document);
+    connect(&actions["first_order.copy"], &QAction::triggered, this, &FirstOrderPanel::copy_rows);
+    auto* copy_key = new QAction(table_);
+    copy_key->setShortcut(QKeySequence::Copy);
+    copy_key->setShortcutContext(Qt::WidgetShortcut);
+    table_->addAction(copy_key);
+    connect(copy_key, &QAction::triggered, this, &FirstOrderPanel::copy_rows);
+    connect(table_, &QWidget::customContextMenuRequested, this, [this, &actions](const QPoint& at) {
+        QMenu menu;
+        actions.fill(menu, {"first_order.copy"});
+        menu.exec(table_->viewport()->mapToGlobal(at));
+    });
+}
+
+void FirstOrderPanel::follow_document() { delay_.start(); }
+
+void FirstOrderPanel::work_out() {
+    if (document_.is_empty()) {
+        pages_->setCurrentWidget(empty_);
+        header_->set_state(QString());
+        return;
+    }
+    const bool was_empty = model_->rowCount() == 0;
+    QString state = QStringLiteral("%1 nm · far object").arg(significant(d_line_nm, 4));
+    if (!document_.scene().configuration.empty()) {
+        state.prepend(QString::fromStdString(document_.scene().configuration) + " · ");
+    }
+    header_->set_state(state);
+    try {
+        Prescription lens = document_.configured_lens();
+        if (lens == shown_) {
+            return;  // the light moves, and nothing here changes
+        }
+        shown_ = std::move(lens);
+        model_->set_quantities(lens_quantities(compile(shown_, d_line_nm)));
+        reason_.clear();
+        pages_->setCurrentWidget(table_);
+        if (was_empty) {
+            fit_columns(*table_);
+        }
+    } catch (const Error& error) {
+        reason_ = QString::fromUtf8(error.what());
+        model_->set_quantities({});
+        cannot_->set_what(QStringLiteral("Nothing can be worked out yet: %1").arg(reason_));
+        pages_->setCurrentWidget(cannot_);
+    }
+}
+
+QString FirstOrderPanel::state() const { return header_->state(); }
+
+void FirstOrderPanel::copy_rows() const {
+    std::vector<int> rows;
+    for (int row = 0; row < model_->rowCount(); ++row) {
+        if (table_->selectionModel()->isRowSelected(row) ||
+            !table_->selectionModel()->hasSelection()) {
+            rows.push_back(row);
+        }
+    }
+    QGuiApplication::clipboard()->setText(model_->clipboard_text(rows));
+}
+
+}  // namespace ghostlight
