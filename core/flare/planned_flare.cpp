@@ -54,7 +54,9 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
     if (!highlighted.empty() && !draw_highlight(highlighted, frame, request.threads, stop, image))
         return std::nullopt;
     for (std::size_t g = 0; g < probed.size(); ++g) {
-        image.flux_mm2 += drawn[g].mesh.flux_mm2[C - 1];
+        image.flux_mm2 += probed[g].planned.fate == GhostFate::off_sensor
+                              ? probed[g].planned.whole_flux_mm2
+                              : drawn[g].mesh.flux_mm2[C - 1];
         image.cells += drawn[g].mesh.cells;
         image.rays += probed[g].planned.rays;
         image.plan.flux_mm2 += probed[g].planned.flux_mm2;

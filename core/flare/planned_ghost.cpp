@@ -205,6 +205,7 @@ ProbedGhost GhostPlanner::probe(const GhostPath& path) const {
         1, nodes.cells, nodes.weights);
     const FrameLight light = light_on_frame(nodes, frame_);
     planned.flux_mm2 = light.flux_mm2;
+    planned.whole_flux_mm2 = light.whole_flux_mm2;
     if (!light.passes)
         planned.fate = GhostFate::nothing_passes;
     else if (!light.near_frame)
