@@ -11,7 +11,7 @@
 namespace ghostlight {
 namespace {
 
-constexpr int nodes = 129;  ///< of cos θ from 0 to 1
+constexpr int nodes = 257;  ///< of cos θ from 0 to 1
 constexpr std::size_t padded_nodes = (nodes + film_padding - 1) / film_padding * film_padding;
 constexpr std::size_t tables_per_surface = 4;  ///< from either side, reflected or transmitted
 

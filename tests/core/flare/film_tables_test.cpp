@@ -12,7 +12,7 @@ namespace ghostlight {
 namespace {
 
 TEST(FilmTables, WeightsAreTheProductsOfTheFilms) {
-    // Linear between 129 cosines: about 4e-3 of the little R of a coated surface seen from the glass,
+    // Linear between 257 cosines: some 1e-3 of the little R of a coated surface seen from the glass,
     // and a ghost has two of them.
     constexpr double tolerance = 0.01;
     // Well before the onset of total reflection, where R turns within one node: pictures trace
