@@ -105,7 +105,7 @@ void MainWindow::build_panels() {
     setCentralWidget(flare_);
     setCorner(Qt::TopLeftCorner, Qt::LeftDockWidgetArea);
     setCorner(Qt::TopRightCorner, Qt::RightDockWidgetArea);
-    setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
+    setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);  // reports have long lines
     setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
     prescription_dock_ =
         add_dock(prescription_, "prescription", "Prescription", Qt::LeftDockWidgetArea);

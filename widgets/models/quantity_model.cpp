@@ -13,7 +13,7 @@ namespace ghostlight {
 
 namespace {
 
-constexpr std::array<const char*, QuantityModel::column_count> headers = {"First order", "Value",
+constexpr std::array<const char*, QuantityModel::column_count> headers = {"Quantity", "Value",
                                                                           "Unit"};
 
 /// Below this, against lengths of millimetres, a number is 0 but for rounding.
