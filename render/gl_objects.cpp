@@ -39,7 +39,9 @@ GLuint compiled(GLenum kind, const std::string& source) {
         glDeleteShader(shader);
         throw Error({.problem = "OpenGL refused a shader",
                      .file = {},
-                     .where = kind == GL_VERTEX_SHADER ? "vertex shader" : "fragment shader",
+                     .where = kind == GL_VERTEX_SHADER    ? "vertex shader"
+                              : kind == GL_COMPUTE_SHADER ? "compute shader"
+                                                          : "fragment shader",
                      .found = log,
                      .expected = {}});
     }
@@ -128,12 +130,20 @@ GlProgram::GlProgram(const std::string& vertex_source, const std::string& fragme
         glDeleteShader(vertex);
         throw;
     }
+    const GLuint shaders[] = {vertex, fragment};
+    link(shaders, 2);
+}
+
+GlProgram::GlProgram(const std::string& compute_source) {
+    const GLuint compute = compiled(GL_COMPUTE_SHADER, compute_source);
+    link(&compute, 1);
+}
+
+void GlProgram::link(const unsigned* shaders, int count) {
     const GLuint program = glCreateProgram();
-    glAttachShader(program, vertex);
-    glAttachShader(program, fragment);
+    for (int i = 0; i < count; ++i) glAttachShader(program, shaders[i]);
     glLinkProgram(program);
-    glDeleteShader(vertex);
-    glDeleteShader(fragment);
+    for (int i = 0; i < count; ++i) glDeleteShader(shaders[i]);
     GLint done = GL_FALSE;
     glGetProgramiv(program, GL_LINK_STATUS, &done);
     if (done != GL_TRUE) {

@@ -33,6 +33,8 @@ class GlProgram {
     GlProgram() = default;
     /// Throws Error with the compiler's own words.
     GlProgram(const std::string& vertex_source, const std::string& fragment_source);
+    /// A compute program. Throws Error like the other.
+    explicit GlProgram(const std::string& compute_source);
     GlProgram(GlProgram&& other) noexcept { *this = std::move(other); }
     GlProgram& operator=(GlProgram&& other) noexcept;
     ~GlProgram();
@@ -41,6 +43,8 @@ class GlProgram {
     int uniform(const char* uniform_name) const;
 
    private:
+    void link(const unsigned* shaders, int count);
+
     unsigned name_ = 0;
 };
 

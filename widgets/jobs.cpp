@@ -115,7 +115,11 @@ void Jobs::work_on_flare(const Snapshot& job, const std::stop_token& stop) {
         request.tolerance = tolerance;
         request.width_px = width_px;
         request.highlighted = job.highlighted;
-        std::optional<FlareImage> image = render_planned(compiled(job), request, token);
+        request.spectrum = job.scene.spectrum;
+        const FlareScene& scene = compiled(job);
+        std::optional<FlareImage> image = can_be_planned(scene.system(), request.light)
+                                              ? render_planned(scene, request, token)
+                                              : render_flare(job.lens, request, token);
         if (!image) {
             return 0.0;
         }

@@ -115,20 +115,15 @@ class Builder {
     void add_cell(int i, int j) {
         if (!n_.skipped.empty() && n_.skipped[idx(j * across_ + i)]) return;
         const int a = node(i, j), b = a + 1, c = a + side_, d = c + 1;
-        if (inside_[idx(a)] && inside_[idx(b)] && inside_[idx(c)] && inside_[idx(d)]) {
-            if (add_whole(i, j, a, b, c, d)) return;
-            add_triangle(a, b, c);
-            add_triangle(d, c, b);
-            return;
-        }
-        for (const auto& clearance : n_.clearances) {
-            const float most = std::max(
-                {clearance[idx(a)], clearance[idx(b)], clearance[idx(c)], clearance[idx(d)]});
-            if (most < 0.0F) return;
-        }
-        const bool mirrored = 2 * i >= across_;
+        const bool whole = inside_[idx(a)] && inside_[idx(b)] && inside_[idx(c)] && inside_[idx(d)];
+        if (whole && add_whole(i, j, a, b, c, d)) return;
+        if (!whole)
+            for (const auto& clearance : n_.clearances)
+                if (std::max({clearance[idx(a)], clearance[idx(b)], clearance[idx(c)],
+                              clearance[idx(d)]}) < 0.0F)
+                    return;
         // Diagonals mirror about the middle, so that a symmetric ghost is drawn symmetrically.
-        if (mirrored) {
+        if (2 * i >= across_) {
             add_triangle(a, b, d);
             add_triangle(d, c, a);
         } else {

@@ -108,21 +108,20 @@ FlareScene compiled_scene(const Prescription& lens, const FlareRequest& request)
                        request.coating_model);
 }
 
-/// The planned method traces half of each beam, turned into the y–z plane: the rectangle of a
-/// sensor that reflects has to be symmetric about that.
-bool can_be_planned(const Prescription& lens, const FlareRequest& request) {
-    return !lens.sensor.reflectance ||
-           std::abs(std::fmod(request.light.azimuth_deg, 180.0)) == 90.0;
-}
-
 }  // namespace
+
+bool can_be_planned(const OpticalSystem& system, const LightDirection& light) {
+    return !system.sensor_face || std::abs(std::fmod(light.azimuth_deg, 180.0)) == 90.0;
+}
 
 std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequest& request,
                                        std::stop_token stop) {
     switch (request.method) {
-        case FlareMethod::planned:
-            if (!can_be_planned(lens, request)) break;
-            return render_planned(compiled_scene(lens, request), request, std::move(stop));
+        case FlareMethod::planned: {
+            const FlareScene scene = compiled_scene(lens, request);
+            if (!can_be_planned(scene.system(), request.light)) break;
+            return render_planned(scene, request, std::move(stop));
+        }
         case FlareMethod::paraxial:
             return render_paraxial(compiled_scene(lens, request), request, std::move(stop));
         case FlareMethod::uniform:

@@ -70,6 +70,11 @@ struct FlareImage {
 std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequest& request,
                                        std::stop_token stop = {});
 
+/// The planned method traces half of each beam, turned into the y–z plane: the rectangle of a
+/// sensor that reflects has to be symmetric about that. Where it is not, render_flare() draws
+/// uniformly.
+bool can_be_planned(const OpticalSystem& system, const LightDirection& light);
+
 /// The method `uniform`.
 std::optional<FlareImage> render_uniform(const Prescription& lens, const FlareRequest& request,
                                          std::stop_token stop = {});

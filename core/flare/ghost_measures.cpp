@@ -142,6 +142,7 @@ FrameLight light_on_frame(const MeshNodes& nodes, const PixelFrame& frame) {
             }
             if (passing == 0) continue;
             light.passes = true;
+            light.whole_flux_mm2 += weight * 0.25 * passing * nodes.cell_area_mm2;
             if (right < 0.0F || high < 0.0F || left > width || low > height) continue;
             light.near_frame = true;
             light.flux_mm2 += weight * 0.25 * passing * nodes.cell_area_mm2 *

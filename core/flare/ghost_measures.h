@@ -32,6 +32,7 @@ std::vector<int> singular_cells(const MirrorGrid& grid, const MeshNodes& nodes);
 /// What a probe says of the light that a ghost brings to the frame.
 struct FrameLight {
     double flux_mm2 = 0.0;
+    double whole_flux_mm2 = 0.0;  ///< on the frame or beside it
     bool passes = false, near_frame = false;
 };
 FrameLight light_on_frame(const MeshNodes& nodes, const PixelFrame& frame);

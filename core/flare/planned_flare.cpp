@@ -16,11 +16,6 @@ double ms_since(Clock::time_point began) {
     return std::chrono::duration<double, std::milli>(Clock::now() - began).count();
 }
 
-/// Errors of ghosts cancel in part where they overlap, and the estimates are cautious: what is
-/// granted in all, over what is asked.
-constexpr double granted_share = 0.5;
-constexpr double most_share = 0.5;  ///< of a ghost's own light
-
 template <int C>
 std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& request,
                                  std::stop_token stop) {
@@ -34,29 +29,16 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
     image.plan.tolerance = request.tolerance;
 
     const GhostPlanner planner(scene, request.light, frame);
-    std::vector<ProbedGhost> probed(ghosts.size());
-    bool finished = parallel_for(probed.size(), request.threads, stop, [&](std::size_t g) {
-        probed[g] = planner.probe(ghosts[g]);
-    });
-    if (!finished) return std::nullopt;
+    auto found = probe_all(scene, planner, request, stop);
+    if (!found) return std::nullopt;
+    std::vector<ProbedGhost>& probed = *found;
     image.times.bounds_ms = ms_since(began);
 
     const auto traced = Clock::now();
-    std::vector<ErrorShare> shares;
-    double total = 0.0;
-    for (const ProbedGhost& ghost : probed) {
-        const bool drawn = ghost.planned.fate == GhostFate::drawn;
-        shares.push_back({drawn ? ghost.planned.flux_mm2 : 0.0,
-                          ghost.errors.grid_mm2 + ghost.errors.merging_mm2});
-        total += shares.back().flux_mm2;
-    }
-    const std::vector<double> allowance =
-        share_out(shares, granted_share * request.tolerance * total, most_share);
-    for (std::size_t g = 0; g < probed.size(); ++g) probed[g].planned.allowance_mm2 = allowance[g];
     std::vector<DrawnGhost<C>> drawn(probed.size());
     std::vector<DrawnGhost<gray_channels>> highlighted(request.highlighted.empty() ? 0
                                                                                    : probed.size());
-    finished = parallel_for(probed.size(), request.threads, stop, [&](std::size_t g) {
+    const bool finished = parallel_for(probed.size(), request.threads, stop, [&](std::size_t g) {
         if (probed[g].planned.fate != GhostFate::drawn) return;
         planner.draw(probed[g], drawn[g].mesh);
         drawn[g].level = probed[g].planned.level;
@@ -72,7 +54,9 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
     if (!highlighted.empty() && !draw_highlight(highlighted, frame, request.threads, stop, image))
         return std::nullopt;
     for (std::size_t g = 0; g < probed.size(); ++g) {
-        image.flux_mm2 += drawn[g].mesh.flux_mm2[C - 1];
+        image.flux_mm2 += probed[g].planned.fate == GhostFate::off_sensor
+                              ? probed[g].planned.whole_flux_mm2
+                              : drawn[g].mesh.flux_mm2[C - 1];
         image.cells += drawn[g].mesh.cells;
         image.rays += probed[g].planned.rays;
         image.plan.flux_mm2 += probed[g].planned.flux_mm2;

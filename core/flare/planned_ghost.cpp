@@ -2,15 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/flare/ghost_measures.h"
 #include "core/flare/grid_light.h"
 #include "core/flare/picture_levels.h"
+#include "core/parallel.h"
 #include "core/units.h"
 
 namespace ghostlight {
 namespace {
 
+/// Errors of ghosts cancel in part where they overlap, and the estimates are cautious: what is
+/// granted in all, over what is asked.
+constexpr double granted_share = 0.5;
+constexpr double most_share = 0.5;  ///< of a ghost's own light
 constexpr int probe_cells = 12;
 constexpr int close_cells = 48;          ///< where hardly a ray of a probe passes
 constexpr std::size_t few_passing = 12;  ///< of a probe's nodes
@@ -199,6 +205,7 @@ ProbedGhost GhostPlanner::probe(const GhostPath& path) const {
         1, nodes.cells, nodes.weights);
     const FrameLight light = light_on_frame(nodes, frame_);
     planned.flux_mm2 = light.flux_mm2;
+    planned.whole_flux_mm2 = light.whole_flux_mm2;
     if (!light.passes)
         planned.fate = GhostFate::nothing_passes;
     else if (!light.near_frame)
@@ -257,15 +264,18 @@ void GhostPlanner::draw_grids(const std::vector<const MirrorGrid*>& geometry,
 }
 
 /// Traces singular cells of the half with u ≥ 0 on grids of their own, with films and polarisation
-/// at the main wavelength and the colour of their surroundings; draws them and their mirror images.
+/// at the main wavelength and the colour of their surroundings.
 template <int C>
-void GhostPlanner::draw_singular(const MirrorGrid& grid, const std::vector<int>& cells,
-                                 const MirrorGrid& weight_grid, const std::vector<float>& light,
-                                 const PlannedGhost& planned, ColorMesh<C>& mesh) const {
+GhostPlanner::SingularRays GhostPlanner::trace_singular(const MirrorGrid& grid,
+                                                        const std::vector<int>& cells,
+                                                        const MirrorGrid& weight_grid,
+                                                        const std::vector<float>& light,
+                                                        const PlannedGhost& planned) const {
     constexpr int side = split_cells + 1;
     const double du = (grid.box.u1_mm - grid.box.u0_mm) / grid.cells;
     const double dv = (grid.box.v1_mm - grid.box.v0_mm) / grid.cells;
-    Bundle<float> rays;
+    SingularRays result;
+    Bundle<float>& rays = result.rays;
     for (const int cell : cells)
         for (int j = 0; j < side; ++j)
             for (int i = 0; i < side; ++i) {
@@ -285,18 +295,30 @@ void GhostPlanner::draw_singular(const MirrorGrid& grid, const std::vector<int>&
                 color[c] += around[idx((j * grid.side() + i + corner) * C + c)];
         for (int c = 0; c < C; ++c) color[c] = color[C - 1] > 0.0F ? color[c] / color[C - 1] : 1.0F;
         color[C - 1] = 1.0F;
+        for (std::size_t k = n * side * side; k < (n + 1) * side * side; ++k)
+            for (int c = 0; c < C; ++c) result.weights.push_back(color[c] * rays.weight[k]);
+    }
+    return result;
+}
+
+/// Draws singular cells and their mirror images.
+template <int C>
+void GhostPlanner::draw_singular(const MirrorGrid& grid, const std::vector<int>& cells,
+                                 const MirrorGrid& weight_grid, const std::vector<float>& light,
+                                 const PlannedGhost& planned, ColorMesh<C>& mesh) const {
+    constexpr int side = split_cells + 1;
+    const auto [rays, weights] = trace_singular<C>(grid, cells, weight_grid, light, planned);
+    const double cell_area_mm2 =
+        grid.box.area_mm2() / (grid.cells * grid.cells * split_cells * split_cells);
+    for (std::size_t n = 0; n < cells.size(); ++n)
         for (const float mirror : {1.0F, -1.0F}) {
-            MeshNodes nodes =
-                place(rays, split_cells, du * dv / (split_cells * split_cells), [&](int a, int b) {
-                    return std::pair{n * side * side + idx(b * side + a), mirror};
-                });
-            nodes.weights.resize(idx(side * side * C));
-            for (std::size_t k = 0; k < idx(side * side); ++k)
-                for (std::size_t c = 0; c < C; ++c)
-                    nodes.weights[k * C + c] = color[c] * rays.weight[n * side * side + k];
+            MeshNodes nodes = place(rays, split_cells, cell_area_mm2, [&](int a, int b) {
+                return std::pair{n * side * side + idx(b * side + a), mirror};
+            });
+            const auto first = weights.begin() + static_cast<std::ptrdiff_t>(n * side * side * C);
+            nodes.weights.assign(first, first + side * side * C);
             add_grid(nodes, frame_, mesh);
         }
-    }
 }
 
 MirrorGrid GhostPlanner::traced(const PlannedGhost& planned, std::size_t node, int cells,
@@ -341,9 +363,8 @@ int cells_for(int cells, double error_mm2, double allowed_mm2) {
 
 }  // namespace
 
-template <int C>
-void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
-    PlannedGhost& planned = ghost.planned;
+GhostPlanner::Fineness GhostPlanner::choose(const ProbedGhost& ghost) const {
+    const PlannedGhost& planned = ghost.planned;
     const FirstErrors& first = ghost.errors;
     const double flux = std::max(planned.flux_mm2, 1e-300);
     // A ghost of full size leaves its share for blurring to the others.
@@ -353,29 +374,61 @@ void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
         full_size ? planned.allowance_mm2 / (1.0 - level_share) : planned.allowance_mm2;
     auto allowed = [&](double share) { return unsaturated(share * spread, flux); };
 
-    // Cells below half a pixel show nothing more.
-    const int finest = std::clamp(static_cast<int>(2.0 * std::sqrt(first.area_px2)),
+    Fineness chosen;
+    // Cells below half a pixel show nothing more. An even number of them, for mirror symmetry.
+    const int finest = std::clamp(4 * static_cast<int>(0.5 * std::sqrt(first.area_px2)),
                                   2 * first.cells, finest_cells);
-    int cells = std::min(finest, cells_for(first.cells, first.grid_mm2, allowed(grid_share)));
+    chosen.cells = std::min(finest, cells_for(first.cells, first.grid_mm2, allowed(grid_share)));
     // Bands overlap by hats, so that what is left of merging falls fourfold on doubling them.
-    const int bands = std::clamp(
+    chosen.bands = std::clamp(
         static_cast<int>(std::ceil(
             std::sqrt(std::min(first.merging_mm2 / std::max(allowed(band_share), 1e-300), 1e6)))),
         1, most_bands);
     // Weights come from the probe where they are smooth, else they are traced on the grid itself;
     // where rays begin to fail or reflect totally, on a grid for each cell.
     const double weight_allowed = weight_share * spread;
-    const bool rough = first.weight_mm2 > weight_allowed;
-    if (rough)
-        cells = std::max(cells, std::min(most_rough_cells,
-                                         cells_for(probe_cells, first.weight_mm2, weight_allowed)));
+    chosen.rough = first.weight_mm2 > weight_allowed;
+    if (chosen.rough)
+        chosen.cells = std::max(
+            chosen.cells,
+            std::min(most_rough_cells, cells_for(probe_cells, first.weight_mm2, weight_allowed)));
     const MirrorGrid& probe = ghost.grids[scene_.main];
-    const bool split = scene_.coating_model == CoatingModel::exact &&
-                       flux > split_above * planned.allowance_mm2 &&
-                       !singular_cells(probe, place(probe)).empty();
+    chosen.split = scene_.coating_model == CoatingModel::exact &&
+                   flux > split_above * planned.allowance_mm2 &&
+                   !singular_cells(probe, place(probe)).empty();
+
+    auto fallen = [](double error, int from, int to) {
+        return error * static_cast<double>(from * from) / (to * to);
+    };
+    chosen.error_mm2 =
+        saturated(fallen(first.grid_mm2, first.cells, chosen.cells), flux) +
+        saturated(fallen(first.merging_mm2, 1, chosen.bands), flux) +
+        std::min(flux, chosen.rough ? fallen(first.weight_mm2, probe_cells, chosen.cells)
+                                    : first.weight_mm2);
+    return chosen;
+}
+
+void GhostPlanner::choose_level(const Fineness& chosen, double contrast_mm2,
+                                PlannedGhost& planned) const {
+    const double flux = std::max(planned.flux_mm2, 1e-300);
+    const double allowed =
+        std::max(planned.allowance_mm2 - chosen.error_mm2, level_share * planned.allowance_mm2);
+    auto level_error = [&](int level) { return saturated(blur_px(level) * contrast_mm2, flux); };
+    planned.level = 0;
+    while (planned.level + 1 < picture_levels && level_error(planned.level + 1) <= allowed)
+        ++planned.level;
+    planned.error_mm2 = chosen.error_mm2 + level_error(planned.level);
+}
+
+template <int C>
+void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
+    PlannedGhost& planned = ghost.planned;
+    const Fineness chosen = choose(ghost);
+    const auto [cells, bands, rough, split, error_mm2] = chosen;
     planned.cells = cells;
     planned.bands = bands;
 
+    const MirrorGrid& probe = ghost.grids[scene_.main];
     std::vector<MirrorGrid> finer;
     std::vector<const MirrorGrid*> geometry;
     for (std::size_t g = 0; g < scene_.geometry.size(); ++g)
@@ -397,22 +450,74 @@ void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
                    bands, split, planned, mesh);
     else
         draw_grids(geometry, probe, ghost.weights, bands, split, planned, mesh);
+    choose_level(chosen, mesh.edge_contrast * frame_.pixel_area_mm2(), planned);
+}
 
-    auto fallen = [](double error, int from, int to) {
-        return error * static_cast<double>(from * from) / (to * to);
+GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
+    PlannedGhost& planned = ghost.planned;
+    const Fineness chosen = choose(ghost);
+    planned.cells = chosen.cells;
+    planned.bands = chosen.bands;
+    choose_level(chosen, ghost.errors.contrast_mm2, planned);
+
+    GhostDrawing drawing;
+    const MirrorGrid& probe = ghost.grids[scene_.main];
+    const bool own_weights = chosen.rough && planned.cells != probe_cells;
+    MirrorGrid fine;
+    std::vector<float> fine_weights;
+    if (planned.cells != probe_cells && (own_weights || chosen.split)) {
+        fine = traced(planned, scene_.main, planned.cells,
+                      own_weights ? Weights::polarised : Weights::none);
+        planned.rays += fine.half.size();
+    }
+    if (own_weights) fine_weights = weigh(trace_path<float>(scene_.system(), planned.path), fine);
+    const MirrorGrid& weight_grid = own_weights ? fine : probe;
+    const std::vector<float>& weights = own_weights ? fine_weights : ghost.weights;
+    auto light = [&](int band, int bands) {
+        return light_of<color_channels>(weight_grid, weights,
+                                        channel_shares<color_channels>(scene_, band, bands));
     };
-    const double so_far =
-        saturated(fallen(first.grid_mm2, first.cells, cells), flux) +
-        saturated(fallen(first.merging_mm2, 1, bands), flux) +
-        std::min(flux, rough ? fallen(first.weight_mm2, probe_cells, cells) : first.weight_mm2);
-    const double level_allowed =
-        std::max(planned.allowance_mm2 - so_far, level_share * planned.allowance_mm2);
-    const double contrast = mesh.edge_contrast * frame_.pixel_area_mm2();
-    auto level_error = [&](int level) { return saturated(blur_px(level) * contrast, flux); };
-    planned.level = 0;
-    while (planned.level + 1 < picture_levels && level_error(planned.level + 1) <= level_allowed)
-        ++planned.level;
-    planned.error_mm2 = so_far + level_error(planned.level);
+    if (chosen.split) {
+        const MirrorGrid& grid = planned.cells == probe_cells ? probe : fine;
+        drawing.singular = singular_cells(grid, place(grid));
+        drawing.singular_across = split_cells;
+        drawing.singular_light = trace_singular<color_channels>(grid, drawing.singular, weight_grid,
+                                                                light(0, 1), planned)
+                                     .weights;
+    }
+    const ColorAxis axis(scene_.samples);
+    drawing.light_cells = weight_grid.cells;
+    for (int band = 0; band < planned.bands; ++band) {
+        const std::vector<float> own = light(band, planned.bands);
+        drawing.light.insert(drawing.light.end(), own.begin(), own.end());
+        drawing.band_nm.push_back(axis.wavelength_nm((band + 0.5) / planned.bands));
+    }
+    drawing.planned = planned;
+    return drawing;
+}
+
+std::optional<std::vector<ProbedGhost>> probe_all(const FlareScene& scene,
+                                                  const GhostPlanner& planner,
+                                                  const FlareRequest& request,
+                                                  std::stop_token stop) {
+    const std::vector<GhostPath>& ghosts = request.only.empty() ? scene.ghosts : request.only;
+    std::vector<ProbedGhost> probed(ghosts.size());
+    const bool finished =
+        parallel_for(probed.size(), request.threads, std::move(stop),
+                     [&](std::size_t g) { probed[g] = planner.probe(ghosts[g]); });
+    if (!finished) return std::nullopt;
+    std::vector<ErrorShare> shares;
+    double total = 0.0;
+    for (const ProbedGhost& ghost : probed) {
+        const bool drawn = ghost.planned.fate == GhostFate::drawn;
+        shares.push_back({drawn ? ghost.planned.flux_mm2 : 0.0,
+                          ghost.errors.grid_mm2 + ghost.errors.merging_mm2});
+        total += shares.back().flux_mm2;
+    }
+    const std::vector<double> allowance =
+        share_out(shares, granted_share * request.tolerance * total, most_share);
+    for (std::size_t g = 0; g < probed.size(); ++g) probed[g].planned.allowance_mm2 = allowance[g];
+    return probed;
 }
 
 template <int C>

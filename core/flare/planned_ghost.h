@@ -1,8 +1,11 @@
 #pragma once
 
+#include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "core/flare/color_mesh.h"
+#include "core/flare/flare_drawing.h"
 #include "core/flare/flare_plan.h"
 #include "core/flare/flare_scene.h"
 #include "core/ghosts/ghost_probe.h"
@@ -29,6 +32,15 @@ struct ProbedGhost {
         weights;  ///< of the probe's half grid at the main one, FilmTables::stride() a ray
 };
 
+class GhostPlanner;
+
+/// All ghosts of a scene after their first look, each with its share of the error asked for.
+/// Nothing when stopped.
+std::optional<std::vector<ProbedGhost>> probe_all(const FlareScene& scene,
+                                                  const GhostPlanner& planner,
+                                                  const FlareRequest& request,
+                                                  std::stop_token stop);
+
 /// Plans and draws one ghost after another; holds what they share. Threads may use it together.
 class GhostPlanner {
    public:
@@ -42,7 +54,24 @@ class GhostPlanner {
     template <int C>
     void draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const;
 
+    /// The same choices, its level from the first look, for an engine that traces and draws for
+    /// itself.
+    GhostDrawing prepare(ProbedGhost& ghost) const;
+
+    const StopMask& stop_mask() const { return stop_mask_; }
+    const BeamFrame& beam() const { return beam_; }
+    double cos_azimuth() const { return cos_azimuth_; }
+    double sin_azimuth() const { return sin_azimuth_; }
+
    private:
+    /// How finely a ghost is drawn, and the error that leaves, its level apart.
+    struct Fineness {
+        int cells = 0, bands = 1;
+        bool rough = false;  ///< weights are traced on the grid itself
+        bool split = false;  ///< singular cells get grids of their own
+        double error_mm2 = 0.0;
+    };
+
     const FlareScene& scene_;
     const PixelFrame& frame_;
     BeamFrame beam_;      ///< the field in the y–z plane
@@ -50,6 +79,8 @@ class GhostPlanner {
     double cos_azimuth_, sin_azimuth_;
     PupilBox entrance_;
 
+    Fineness choose(const ProbedGhost& ghost) const;
+    void choose_level(const Fineness& fineness, double contrast_mm2, PlannedGhost& planned) const;
     template <class RayOf>
     MeshNodes place(const Bundle<float>& rays, int cells, double cell_area_mm2, RayOf ray_of) const;
     MeshNodes place(const MirrorGrid& grid) const;
@@ -65,6 +96,14 @@ class GhostPlanner {
     void draw_grids(const std::vector<const MirrorGrid*>& geometry, const MirrorGrid& weight_grid,
                     const std::vector<float>& weights, int bands, bool split,
                     const PlannedGhost& planned, ColorMesh<C>& mesh) const;
+    struct SingularRays {
+        Bundle<float> rays;  ///< cell by cell
+        std::vector<float> weights;
+    };
+    template <int C>
+    SingularRays trace_singular(const MirrorGrid& grid, const std::vector<int>& cells,
+                                const MirrorGrid& weight_grid, const std::vector<float>& light,
+                                const PlannedGhost& planned) const;
     template <int C>
     void draw_singular(const MirrorGrid& grid, const std::vector<int>& cells,
                        const MirrorGrid& weight_grid, const std::vector<float>& light,

@@ -99,8 +99,9 @@ TEST(FluxSensitivity, OfAReflectanceCountsTurnsAndCrossings) {
     // A surface's own R scales the ghost that turns there as its mean R does.
     const auto slopes = flux_sensitivities(lens, 550.0, light, GhostPath{{4, 2}}, parameters);
     for (std::size_t k = 0; k < parameters.size(); ++k)
-        if (parameters[k].surface == 6 && parameters[k].kind == Kind::reflectance)
+        if (parameters[k].surface == 6 && parameters[k].kind == Kind::reflectance) {
             EXPECT_NEAR(slopes[k], -1.0, 0.1);  // one crossing: −1/T
+        }
 }
 
 TEST(FluxSensitivity, AQuarterWaveAtItsCentreHasItsLeastReflectance) {

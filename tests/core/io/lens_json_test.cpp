@@ -62,7 +62,11 @@ Prescription rich_lens() {
     lens.stop.blades = 7;
     lens.stop.rotation_deg = 12.5;
     lens.stop.blade_curvature = 0.25;
-    lens.sensor = {.width_mm = 23.6, .height_mm = 15.7, .at_paraxial_focus = false, .unknown = {}};
+    lens.sensor = {.width_mm = 23.6,
+                   .height_mm = 15.7,
+                   .at_paraxial_focus = false,
+                   .reflectance = {},
+                   .unknown = {}};
     lens.configurations[0].f_number = 4.0;
     lens.configurations[0].stop_semi_diameter_mm = 7.5;
     lens.configurations[0].published.efl_mm = 51.0;

@@ -127,7 +127,7 @@ TEST(RoundTrip, ShapesStopsAndGlasses) {
     lens.surfaces[1].semi_diameter_sized = true;
     lens.surfaces[1].comment = "a comment";
     lens.stop.semi_diameter_mm = 3.0;
-    lens.sensor = {23.5, 15.6, true, {}};
+    lens.sensor = {23.5, 15.6, true, {}, {}};
     const Prescription zmx = through(lens, "x.zmx").lens;
     expect_same_lens(zmx, lens, "zmx", true);
     EXPECT_EQ(zmx.surfaces[0].aspheric, lens.surfaces[0].aspheric);

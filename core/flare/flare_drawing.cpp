@@ -1,0 +1,43 @@
+#include "core/flare/flare_drawing.h"
+
+#include <chrono>
+#include <utility>
+
+#include "core/flare/planned_ghost.h"
+#include "core/parallel.h"
+
+namespace ghostlight {
+
+std::optional<FlareDrawing> plan_drawing(const FlareScene& scene, const FlareRequest& request,
+                                         std::stop_token stop) {
+    const auto began = std::chrono::steady_clock::now();
+    const OpticalSystem& system = scene.system();
+    FlareDrawing drawing;
+    drawing.frame = pixel_frame(system.sensor_width_mm, system.sensor_height_mm, request.width_px);
+    const GhostPlanner planner(scene, request.light, drawing.frame);
+    drawing.beam = planner.beam();
+    drawing.stop_mask = planner.stop_mask();
+    drawing.cos_azimuth = planner.cos_azimuth();
+    drawing.sin_azimuth = planner.sin_azimuth();
+    auto probed = probe_all(scene, planner, request, stop);
+    if (!probed) return std::nullopt;
+    std::vector<GhostDrawing> prepared(probed->size());
+    const bool finished = parallel_for(probed->size(), request.threads, stop, [&](std::size_t g) {
+        if ((*probed)[g].planned.fate == GhostFate::drawn)
+            prepared[g] = planner.prepare((*probed)[g]);
+    });
+    if (!finished) return std::nullopt;
+    drawing.plan.tolerance = request.tolerance;
+    for (std::size_t g = 0; g < prepared.size(); ++g) {
+        const PlannedGhost& planned = (*probed)[g].planned;
+        drawing.plan.ghosts.push_back(planned);
+        drawing.plan.flux_mm2 += planned.flux_mm2;
+        drawing.plan.error_mm2 += planned.error_mm2;
+        if (planned.fate == GhostFate::drawn) drawing.ghosts.push_back(std::move(prepared[g]));
+    }
+    drawing.planning_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
+    return drawing;
+}
+
+}  // namespace ghostlight
