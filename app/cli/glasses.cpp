@@ -40,7 +40,8 @@ std::vector<Found> by_name(const GlassOptions& options) {
                      .where = "NAME",
                      .found = "'" + options.name + "'",
                      .expected = similar.empty() ? "a name of a catalogue at hand"
-                                                 : "a name of a catalogue at hand, perhaps " + joined(similar, ", ")});
+                                                 : "a name of a catalogue at hand, perhaps " +
+                                                       joined(similar, ", ")});
     }
     std::vector<CataloguedGlass> glasses{match->glass};
     glasses.insert(glasses.end(), match->homonyms.begin(), match->homonyms.end());

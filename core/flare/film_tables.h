@@ -16,8 +16,8 @@ enum class CoatingModel {
 
 /// Mean reflectance and transmittance of s and p at every surface of a lens, from both sides, at
 /// several wavelengths, over the cosine of incidence: linear between nodes, which for the films of
-/// lenses is good to 1e-3 of R. A ray's weights at all wavelengths then cost one look-up at each
-/// surface instead of one film a wavelength.
+/// lenses is good to 1e-3 of R but within a node of the onset of total reflection. A ray's weights
+/// at all wavelengths then cost one look-up at each surface instead of one film a wavelength.
 class FilmTables {
    public:
     /// `systems`: the lens at each wavelength, in one order.

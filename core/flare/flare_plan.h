@@ -25,9 +25,10 @@ struct PlannedGhost {
     int level = 0;          ///< drawn at 1/2^level of the size
     int bands = 1;          ///< of the spectrum, each with a geometry of its own
     double flux_mm2 = 0.0;  ///< on the sensor, from the probe
-    double allowance_mm2 = 0.0;  ///< error that the plan grants
-    double error_mm2 = 0.0;      ///< estimated L1 error of its picture
-    double bound_mm2 = 0.0;      ///< of what a ghost that is left out could have carried
+    double whole_flux_mm2 = 0.0;  ///< on the whole plane, from the probe
+    double allowance_mm2 = 0.0;   ///< error that the plan grants
+    double error_mm2 = 0.0;       ///< estimated L1 error of its picture
+    double bound_mm2 = 0.0;       ///< of what a ghost that is left out could have carried
     std::size_t rays = 0;
 };
 

@@ -74,12 +74,12 @@ Surface read_surface(const JsonAt& object, bool is_last) {
     if (const auto sized = object.find("semi_diameter_sized"))
         surface.semi_diameter_sized = sized->boolean();
     surface.comment = optional_text(object, "comment");
-    keep_unknown(object,
-                 {"radius_mm", "curvature_per_mm", "conic", "aspheric", "aspheric_mm",
-                  "thickness_mm", "glass", "model", "index", "formula", "agf", "table",
-                  "transmittance", "unknown_glass", "semi_diameter_mm", "semi_diameter_sized",
-                  "coating", "comment"},
-                 surface.unknown);
+    keep_unknown(
+        object,
+        {"radius_mm", "curvature_per_mm", "conic", "aspheric", "aspheric_mm", "thickness_mm",
+         "glass", "model", "index", "formula", "agf", "table", "transmittance", "unknown_glass",
+         "semi_diameter_mm", "semi_diameter_sized", "coating", "comment"},
+        surface.unknown);
     surface.medium_after = read_medium(object, surface.unknown);
     if (const auto coating = object.find("coating"))
         surface.coating = read_coating(*coating, surface.unknown);

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "core/io/lens_json.h"
 #include "core/io/coating_json.h"
+#include "core/io/lens_json.h"
 #include "core/io/medium_json.h"
 #include "core/io/sensor_json.h"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/io/lens_json.h"
 #include "core/io/coating_json.h"
+#include "core/io/lens_json.h"
 #include "core/io/medium_json.h"
 #include "core/units.h"
 

@@ -170,7 +170,7 @@ TEST(CommandLineRefuses, StacksBeyondNumbers) {
 }
 
 TEST(CommandLineRefuses, Pictures) {
-    expect_refused({"flare", tessar()}, {"--output"});
+    expect_refused({"flare", tessar()}, {"--out"});
     expect_refused({"flare", tessar(), "-o", "flare.jpg"}, {"flare.jpg", ".exr"});
     expect_refused({"flare", tessar(), "-o", "/no/such/folder/flare.exr", "--width", "32"},
                    {"/no/such/folder/flare.exr"});

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/ghosts/bundle.h"
-#include "core/instruction_set.h"
 #include "core/ghosts/pupil.h"
+#include "core/instruction_set.h"
 #include "core/optics/optical_system.h"
 #include "tests/bench/bench_support.h"
 #include "tests/bench/scalar_trace.h"
