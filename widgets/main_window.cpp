@@ -324,7 +324,9 @@ void MainWindow::offer_recovery() {
 
 bool MainWindow::open(const std::filesystem::path& file) { return files_->open(file); }
 
-bool MainWindow::is_settled() const { return !jobs_->is_busy() && !scene_update_.isActive(); }
+bool MainWindow::is_settled() const {
+    return !jobs_->is_busy() && !scene_update_.isActive() && first_order_->is_settled();
+}
 
 void MainWindow::show_scene() {
     if (document_.is_empty()) {
