@@ -154,7 +154,7 @@ bool FileActions::save() {
 
 bool FileActions::save_as(const std::filesystem::path& file) {
     return attempt(QStringLiteral("Saved %1").arg(text_of(file.filename())), [&] {
-        const bool is_in_hand = file == document_.file();
+        const bool is_in_hand = document_.is_own_file() && file == document_.file();
         if (!is_in_hand && !has_own_extension(file)) {
             throw Error({.problem = "lenses are saved in Ghostlight's own format; File ▸ Export "
                                     "Lens writes others",

@@ -1,5 +1,6 @@
 #include "widgets/glass_folders.h"
 
+#include <QAbstractButton>
 #include <QDialogButtonBox>
 #include <QFileDialog>
 #include <QHBoxLayout>
@@ -76,6 +77,9 @@ GlassFoldersDialog::GlassFoldersDialog(QStringList folders, QWidget* parent)
     auto* add = new QPushButton("Add folder…");
     remove_ = new QPushButton("Remove");
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel);
+    for (QAbstractButton* button : buttons->buttons()) {
+        button->setIcon({});  // the words say it
+    }
     auto* edits = new QHBoxLayout;
     edits->addWidget(add);
     edits->addWidget(remove_);

@@ -105,7 +105,7 @@ void MainWindow::build_panels() {
     setCentralWidget(flare_);
     setCorner(Qt::TopLeftCorner, Qt::LeftDockWidgetArea);
     setCorner(Qt::TopRightCorner, Qt::RightDockWidgetArea);
-    setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
+    setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);  // reports have long lines
     setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
     prescription_dock_ =
         add_dock(prescription_, "prescription", "Prescription", Qt::LeftDockWidgetArea);
@@ -324,7 +324,9 @@ void MainWindow::offer_recovery() {
 
 bool MainWindow::open(const std::filesystem::path& file) { return files_->open(file); }
 
-bool MainWindow::is_settled() const { return !jobs_->is_busy() && !scene_update_.isActive(); }
+bool MainWindow::is_settled() const {
+    return !jobs_->is_busy() && !scene_update_.isActive() && first_order_->is_settled();
+}
 
 void MainWindow::show_scene() {
     if (document_.is_empty()) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <utility>
 
 #include "core/io/import_report.h"
@@ -34,6 +35,11 @@ bool matters_to(const Note& note) {
     return note.matters_for_flare || note.severity == Note::Severity::error;
 }
 
+/// What has to be mended comes first, then what matters, each in the order of the file.
+int urgency(const Note& note) {
+    return note.severity == Note::Severity::error ? 2 : matters_to(note) ? 1 : 0;
+}
+
 QString text_of(std::string_view text) {
     return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
 }
@@ -57,6 +63,7 @@ int NoteTableModel::columnCount(const QModelIndex& parent) const {
 void NoteTableModel::set_notes(Notes notes, const Prescription& lens) {
     beginResetModel();
     notes_ = std::move(notes);
+    std::ranges::stable_sort(notes_, std::greater{}, urgency);
     surfaces_.clear();
     for (const Note& note : notes_) {
         surfaces_.push_back(surface_of(note, notes_, lens));

@@ -11,7 +11,8 @@
 
 namespace ghostlight {
 
-/// What became of each thing in a file, one row a note.
+/// What became of each thing in a file, one row a note: first what has to be mended, then what
+/// matters, then the rest.
 class NoteTableModel : public QAbstractTableModel {
     Q_OBJECT
    public:

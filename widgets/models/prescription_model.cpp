@@ -64,6 +64,13 @@ std::string field_key(const QModelIndex& index, const std::string& configuration
     return std::to_string(index.row()) + '/' + std::to_string(index.column()) + '/' + configuration;
 }
 
+/// What was typed; of a size that was worked out, as many digits as mean something.
+QString shown_size(double mm) {
+    constexpr int most_digits = 7;
+    const QString typed = at_least_decimals(mm, 2);
+    return typed.size() > most_digits + 2 ? significant(mm, most_digits) : typed;
+}
+
 bool is_unknown(const Medium& medium) {
     return std::holds_alternative<UnknownGlass>(medium.dispersion);
 }
@@ -125,14 +132,15 @@ QString PrescriptionModel::display_text(std::size_t row, int column) const {
         case thickness:
             return at_least_decimals(thickness_mm(shown_, configuration_, row), 3);
         case medium: {
-            // In words, too, for whoever does not see the colour.
-            const QString text = true_minus(text_of_medium(surface.medium_after));
-            return is_unknown(surface.medium_after) && !surface.medium_after.name.empty()
-                       ? text + QStringLiteral(" ?")
-                       : text;
+            const QString text = text_of_medium(surface.medium_after);
+            if (surface.medium_after.name.empty()) {
+                return true_minus(text);
+            }
+            // With a mark, too, for whoever does not see the colour.
+            return is_unknown(surface.medium_after) ? text + QStringLiteral(" ?") : text;
         }
         case semi_diameter:
-            return at_least_decimals(surface.semi_diameter_mm, 2);
+            return shown_size(surface.semi_diameter_mm);
         case conic:
             return surface.conic == 0.0 ? QString() : at_least_decimals(surface.conic, 3);
         case aspheric:

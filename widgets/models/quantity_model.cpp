@@ -13,7 +13,7 @@ namespace ghostlight {
 
 namespace {
 
-constexpr std::array<const char*, QuantityModel::column_count> headers = {"First order", "Value",
+constexpr std::array<const char*, QuantityModel::column_count> headers = {"Quantity", "Value",
                                                                           "Unit"};
 
 /// Below this, against lengths of millimetres, a number is 0 but for rounding.
@@ -62,6 +62,8 @@ QVariant QuantityModel::data(const QModelIndex& index, int role) const {
         case Qt::TextAlignmentRole:
             return QVariant::fromValue(Qt::AlignVCenter |
                                        (index.column() == value ? Qt::AlignRight : Qt::AlignLeft));
+        case stale_role:
+            return stale_;
         case Qt::ForegroundRole:
             return index.column() == unit ? QVariant(current_palette().dim) : QVariant();
         default:
@@ -85,6 +87,7 @@ QVariant QuantityModel::headerData(int section, Qt::Orientation orientation, int
 }
 
 void QuantityModel::set_quantities(std::vector<LensQuantity> quantities) {
+    stale_ = false;
     const bool same_rows = quantities.size() == quantities_.size();
     if (same_rows && rowCount() > 0) {
         // The rows stay where they are for views; only their numbers are others.
@@ -95,6 +98,13 @@ void QuantityModel::set_quantities(std::vector<LensQuantity> quantities) {
     beginResetModel();
     quantities_ = std::move(quantities);
     endResetModel();
+}
+
+void QuantityModel::set_stale(bool stale) {
+    stale_ = stale;
+    if (rowCount() > 0) {
+        Q_EMIT dataChanged(index(0, 0), index(rowCount() - 1, column_count - 1), {stale_role});
+    }
 }
 
 QString QuantityModel::clipboard_text(const std::vector<int>& rows) const {

@@ -8,6 +8,7 @@
 #include <QTableView>
 #include <QVBoxLayout>
 
+#include <exception>
 #include <utility>
 
 #include "core/error.h"
@@ -29,7 +30,8 @@ constexpr const char* what_is_here =
     "The lens's first-order data: focal length, pupils, principal points, field and length.";
 
 QTableView* make_table(QAbstractItemModel* model, QObject* parent) {
-    QTableView* table = plain_table(model, new TableDelegate(-1, -1, parent));
+    QTableView* table =
+        plain_table(model, new TableDelegate(-1, QuantityModel::stale_role, parent));
     table->setObjectName("first_order_table");
     table->setSelectionMode(QAbstractItemView::ExtendedSelection);
     table->setSelectionBehavior(QAbstractItemView::SelectRows);
@@ -58,11 +60,13 @@ FirstOrderPanel::FirstOrderPanel(Document& document, const Actions& actions, QWi
     column->addWidget(header_);
     column->addWidget(pages_, 1);
 
+    job_ = std::make_unique<NewestJob<Request>>(
+        [this](const Request& request, const std::stop_token&) { work_on(request); });
     delay_.setSingleShot(true);
     delay_.setInterval(0);
-    connect(&delay_, &QTimer::timeout, this, &FirstOrderPanel::work_out);
+    connect(&delay_, &QTimer::timeout, this, &FirstOrderPanel::request);
     connect(empty_, &EmptyState::action_triggered, &actions["file.open"], &QAction::trigger);
-    connect(&document_, &Document::changed, this, &FirstOrderPanel::follow_document);
+    connect(&document_, &Document::changed, &delay_, qOverload<>(&QTimer::start));
     connect(&actions["first_order.copy"], &QAction::triggered, this, &FirstOrderPanel::copy_rows);
     auto* copy_key = new QAction(table_);
     copy_key->setShortcut(QKeySequence::Copy);
@@ -76,15 +80,12 @@ FirstOrderPanel::FirstOrderPanel(Document& document, const Actions& actions, QWi
     });
 }
 
-void FirstOrderPanel::follow_document() { delay_.start(); }
+FirstOrderPanel::~FirstOrderPanel() = default;
 
-void FirstOrderPanel::work_out() {
+void FirstOrderPanel::request() {
     if (document_.is_empty()) {
-        pages_->setCurrentWidget(empty_);
-        header_->set_state(QString());
         return;
     }
-    const bool was_empty = model_->rowCount() == 0;
     QString state = QStringLiteral("%1 nm · far object").arg(significant(d_line_nm, 4));
     if (!document_.scene().configuration.empty()) {
         state.prepend(QString::fromStdString(document_.scene().configuration) + " · ");
@@ -92,22 +93,61 @@ void FirstOrderPanel::work_out() {
     header_->set_state(state);
     try {
         Prescription lens = document_.configured_lens();
-        if (lens == shown_) {
+        if (lens == asked_) {
             return;  // the light moves, and nothing here changes
         }
-        shown_ = std::move(lens);
-        model_->set_quantities(lens_quantities(compile(shown_, d_line_nm)));
-        reason_.clear();
-        pages_->setCurrentWidget(table_);
-        if (was_empty) {
-            fit_columns(*table_);
-        }
-    } catch (const Error& error) {
-        reason_ = QString::fromUtf8(error.what());
-        model_->set_quantities({});
-        cannot_->set_what(QStringLiteral("Nothing can be worked out yet: %1").arg(reason_));
-        pages_->setCurrentWidget(cannot_);
+        asked_ = lens;
+        model_->set_stale(true);
+        job_->submit({std::move(lens), ++serial_});
+    } catch (const Error& error) {  // the configuration is not one of the lens's
+        asked_ = {};
+        ++serial_;
+        show_reason(QString::fromUtf8(error.what()), serial_);
     }
+}
+
+void FirstOrderPanel::work_on(const Request& request) {
+    try {
+        auto quantities = lens_quantities(compile(request.lens, d_line_nm));
+        QMetaObject::invokeMethod(
+            this,
+            [this, quantities = std::move(quantities), serial = request.serial] {
+                show_quantities(quantities, serial);
+            },
+            Qt::QueuedConnection);
+    } catch (const std::exception& error) {
+        QMetaObject::invokeMethod(
+            this,
+            [this, reason = QString::fromUtf8(error.what()), serial = request.serial] {
+                show_reason(reason, serial);
+            },
+            Qt::QueuedConnection);
+    }
+}
+
+void FirstOrderPanel::show_quantities(std::vector<LensQuantity> quantities, std::uint64_t serial) {
+    if (serial != serial_) {
+        return;  // of an older lens
+    }
+    shown_serial_ = serial;
+    const bool was_empty = model_->rowCount() == 0;
+    reason_.clear();
+    model_->set_quantities(std::move(quantities));
+    pages_->setCurrentWidget(table_);
+    if (was_empty) {
+        fit_columns(*table_);
+    }
+}
+
+void FirstOrderPanel::show_reason(const QString& reason, std::uint64_t serial) {
+    if (serial != serial_) {
+        return;
+    }
+    shown_serial_ = serial;
+    reason_ = reason;
+    model_->set_quantities({});
+    cannot_->set_what(QStringLiteral("Nothing can be worked out yet: %1").arg(reason));
+    pages_->setCurrentWidget(cannot_);
 }
 
 QString FirstOrderPanel::state() const { return header_->state(); }

@@ -85,10 +85,12 @@ GhostPanel::GhostPanel(Selection& selection, const Actions& actions, QWidget* pa
       table_(make_table(filter_, this)),
       empty_(new EmptyState(what_is_here, "Open a lens…")),
       working_(new EmptyState("Tracing the lens's ghosts…", QString())),
+      cannot_(new EmptyState("No ghosts yet: the lens cannot be traced as it stands.", QString())),
       pages_(new QStackedWidget) {
     pages_->addWidget(empty_);
     pages_->addWidget(table_);
     pages_->addWidget(working_);
+    pages_->addWidget(cannot_);
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
@@ -228,7 +230,7 @@ bool GhostPanel::is_refining() const { return model_->is_stale() && !failed_; }
 void GhostPanel::show_state() {
     const int all = model_->rowCount();
     if (!model_->table()) {
-        pages_->setCurrentWidget(is_working_ ? working_ : empty_);
+        pages_->setCurrentWidget(is_working_ ? working_ : failed_ ? cannot_ : empty_);
         header_->set_state(is_working_ && progress_ > 0.0
                                ? QStringLiteral("tracing %1 %").arg(qRound(progress_ * 100.0))
                                : QString());

@@ -53,6 +53,7 @@ class GhostPanel : public QWidget {
     QTableView* table_;
     EmptyState* empty_;
     EmptyState* working_;  ///< until a lens's first table is there
+    EmptyState* cannot_;   ///< while a lens cannot be traced, and none could before it
     bool is_working_ = false;
     QStackedWidget* pages_;
     double progress_ = 0.0;

@@ -36,17 +36,17 @@ TEST_F(NoteTableModelTest, SaysWhatBecameOfEachLine) {
     EXPECT_EQ(model.rowCount(), 0);
     model.set_notes(notes, lens);
     ASSERT_EQ(model.rowCount(), 3);
-    EXPECT_EQ(cell(0, NoteTableModel::place), "line 4");
-    EXPECT_EQ(cell(0, NoteTableModel::fate), "converted");
-    EXPECT_EQ(cell(0, NoteTableModel::matters), "");
+    EXPECT_EQ(cell(2, NoteTableModel::place), "line 4");
+    EXPECT_EQ(cell(2, NoteTableModel::fate), "converted");
+    EXPECT_EQ(cell(2, NoteTableModel::matters), "");
     EXPECT_EQ(cell(1, NoteTableModel::fate), "left out");
     EXPECT_EQ(cell(1, NoteTableModel::matters), "matters");
     EXPECT_EQ(cell(1, NoteTableModel::proposal), "see it");
-    EXPECT_EQ(cell(2, NoteTableModel::matters), "mend");
+    EXPECT_EQ(cell(0, NoteTableModel::matters), "mend") << "what has to be mended is first";
     EXPECT_EQ(model.count(Note::Severity::warning), 2);
     EXPECT_EQ(model.count(Note::Severity::error), 1);
     EXPECT_EQ(model.index(1, 0).data(NoteTableModel::surface_role), 2);
-    EXPECT_EQ(model.index(0, 0).data(NoteTableModel::surface_role), -1);
+    EXPECT_EQ(model.index(2, 0).data(NoteTableModel::surface_role), -1);
     model.set_notes({}, lens);
     EXPECT_EQ(model.rowCount(), 0);
 }
@@ -56,7 +56,7 @@ TEST_F(NoteTableModelTest, TheFilterLeavesWhatMatters) {
     EXPECT_EQ(filter.rowCount(), 3);
     filter.set_only_what_matters(true);
     ASSERT_EQ(filter.rowCount(), 2);
-    EXPECT_EQ(filter.index(0, NoteTableModel::place).data().toString(), "SURF 3");
+    EXPECT_EQ(filter.index(1, NoteTableModel::place).data().toString(), "SURF 3");
     model.set_notes({notes[0]}, lens);
     EXPECT_EQ(filter.rowCount(), 0);
     filter.set_only_what_matters(false);

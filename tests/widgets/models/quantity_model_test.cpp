@@ -38,6 +38,8 @@ TEST_F(QuantityModelTest, NumbersThatDoNotExistAreShownAsSuch) {
     const QStringList lines = model.clipboard_text({0, 1}).split('\n');
     EXPECT_EQ(lines[1], "a_mm\t33.333333333333336");
     EXPECT_EQ(lines[2], "b\t");
+    model.set_stale(true);
+    EXPECT_EQ(model.index(0, 0).data(QuantityModel::stale_role), true);
     model.set_quantities({});
     EXPECT_EQ(model.rowCount(), 0);
 }
