@@ -12,8 +12,8 @@ namespace ghostlight {
 namespace {
 
 TEST(FilmTables, WeightsAreTheProductsOfTheFilms) {
-    // Linear between 257 cosines: some 1e-3 of the little R of a coated surface seen from the glass,
-    // and a ghost has two of them.
+    // Linear between 257 cosines: some 1e-3 of the little R of a coated surface seen from the
+    // glass, and a ghost has two of them.
     constexpr double tolerance = 0.01;
     // Well before the onset of total reflection, where R turns within one node: pictures trace
     // such cells with the films themselves.
