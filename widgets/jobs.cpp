@@ -113,6 +113,7 @@ void Jobs::work_on_flare(const Snapshot& job, const std::stop_token& stop) {
         FlareRequest request;
         request.light = job.scene.light;
         request.tolerance = tolerance;
+        request.search = is_final ? ProbeSearch::careful : ProbeSearch::quick;
         request.width_px = width_px;
         request.highlighted = job.highlighted;
         request.spectrum = job.scene.spectrum;

@@ -14,7 +14,7 @@ std::optional<FlareDrawing> plan_drawing(const FlareScene& scene, const FlareReq
     const OpticalSystem& system = scene.system();
     FlareDrawing drawing;
     drawing.frame = pixel_frame(system.sensor_width_mm, system.sensor_height_mm, request.width_px);
-    const GhostPlanner planner(scene, request.light, drawing.frame);
+    const GhostPlanner planner(scene, request.light, drawing.frame, request.search);
     drawing.beam = planner.beam();
     drawing.stop_mask = planner.stop_mask();
     drawing.cos_azimuth = planner.cos_azimuth();

@@ -9,6 +9,7 @@
 #include "core/flare/flare_scene.h"
 #include "core/flare/spectrum.h"
 #include "core/ghosts/ghost_path.h"
+#include "core/ghosts/ghost_probe.h"
 #include "core/optics/prescription.h"
 #include "core/optics/trace.h"
 
@@ -30,6 +31,8 @@ struct FlareRequest {
     FlareMethod method = FlareMethod::planned;
     /// planned: L1 error of the ghost layer's irradiance on the sensor, relative to its light.
     double tolerance = 0.02;
+    /// planned: how hard to look for where ghosts enter; quick while a light is dragged.
+    ProbeSearch search = ProbeSearch::careful;
     int width_px = 1280;  ///< the height follows from the sensor's shape
     CoatingModel coating_model = CoatingModel::exact;  ///< planned and paraxial
     double bend_px = 0.2;      ///< each ghost's grid is as fine as keeps its map bilinear to this

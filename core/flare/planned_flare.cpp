@@ -28,7 +28,7 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
     image.ghosts = ghosts.size();
     image.plan.tolerance = request.tolerance;
 
-    const GhostPlanner planner(scene, request.light, frame);
+    const GhostPlanner planner(scene, request.light, frame, request.search);
     auto found = probe_all(scene, planner, request, stop);
     if (!found) return std::nullopt;
     std::vector<ProbedGhost>& probed = *found;

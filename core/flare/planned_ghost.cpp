@@ -53,9 +53,10 @@ double unsaturated(double allowed_mm2, double flux_mm2) {
 }  // namespace
 
 GhostPlanner::GhostPlanner(const FlareScene& scene, const LightDirection& light,
-                           const PixelFrame& frame)
+                           const PixelFrame& frame, ProbeSearch search)
     : scene_(scene),
       frame_(frame),
+      search_(search),
       beam_(beam_frame({light.field_deg, 90.0})),
       stop_mask_(scene.system().stop_mask),
       entrance_(entrance_box(scene.system(), beam_)) {
@@ -171,7 +172,7 @@ ProbedGhost GhostPlanner::probe(const GhostPath& path) const {
     PlannedGhost& planned = result.planned;
     planned.path = path;
     const auto trace = trace_path<float>(scene_.system(), path);
-    GhostProbe probe = probe_ghost(scene_.system(), trace, beam_, entrance_, probe_cells);
+    GhostProbe probe = probe_ghost(scene_.system(), trace, beam_, entrance_, probe_cells, search_);
     planned.rays = probe.rays;
     if (probe.empty) {
         planned.fate = GhostFate::nothing_passes;

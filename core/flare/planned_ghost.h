@@ -45,7 +45,8 @@ std::optional<std::vector<ProbedGhost>> probe_all(const FlareScene& scene,
 class GhostPlanner {
    public:
     /// All must outlive this.
-    GhostPlanner(const FlareScene& scene, const LightDirection& light, const PixelFrame& frame);
+    GhostPlanner(const FlareScene& scene, const LightDirection& light, const PixelFrame& frame,
+                 ProbeSearch search = ProbeSearch::careful);
 
     /// Finds where it enters, and what light it brings.
     ProbedGhost probe(const GhostPath& path) const;
@@ -74,6 +75,7 @@ class GhostPlanner {
 
     const FlareScene& scene_;
     const PixelFrame& frame_;
+    ProbeSearch search_;
     BeamFrame beam_;      ///< the field in the y–z plane
     StopMask stop_mask_;  ///< turned against the light's azimuth
     double cos_azimuth_, sin_azimuth_;

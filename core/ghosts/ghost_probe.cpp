@@ -97,7 +97,9 @@ bool search_cells(const OpticalSystem& system, const TracePath<float>& path, con
 }  // namespace
 
 GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path,
-                       const BeamFrame& frame, const PupilBox& entrance, int cells) {
+                       const BeamFrame& frame, const PupilBox& entrance, int cells,
+                       ProbeSearch search) {
+    const bool careful = search == ProbeSearch::careful;
     const double stop_radius_mm = system.stop_mask.semi_diameter_mm;
     GhostProbe probe;
     MirrorGrid& grid = probe.grid;
@@ -106,8 +108,11 @@ GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path
     // The first look is a finer one: beside failing rays a coarse cell says nothing.
     grid.cells = 2 * cells;
     const bool on_axis = frame.direction.z == 1.0;
-    const Range meridian = passing_meridian(path, frame, entrance, stop_radius_mm);
-    probe.rays += meridian_rays;
+    Range meridian;
+    if (careful) {
+        meridian = passing_meridian(path, frame, entrance, stop_radius_mm);
+        probe.rays += meridian_rays;
+    }
     bool searched = false;
     for (int zoom = 0; zoom < most_zooms; ++zoom) {
         trace_mirrored(path, frame, Weights::none, grid);
@@ -129,6 +134,10 @@ GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path
                 j_range.add(j + 1.0);
             }
         if (!(i_range.high > 0.0)) {
+            if (!careful) {
+                probe.empty = true;
+                return probe;
+            }
             // Crescents between rays that fail: a box about all that may hold them shows nothing.
             if (!search_cells(system, path, frame, {PupilSearch::beside_failing}, probe))
                 return probe;
@@ -151,8 +160,11 @@ GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path
     probe.rays += grid.half.size();
     probe.passing = passing_nodes(grid, stop_radius_mm);
     const bool too_few = probe.passing < few_passing && !searched;
-    if (too_few && !search_cells(system, path, frame,
-                                 {PupilSearch::quick, PupilSearch::beside_failing}, probe))
+    if (too_few && careful &&
+        !search_cells(system, path, frame, {PupilSearch::quick, PupilSearch::beside_failing},
+                      probe))
+        return probe;
+    if (too_few && !careful && !search_cells(system, path, frame, {PupilSearch::quick}, probe))
         return probe;
     hold(grid.box, meridian, on_axis);
     grid.half.keep_cosines = true;

@@ -14,11 +14,16 @@ struct GhostProbe {
     bool empty = false;       ///< nothing was found
 };
 
+/// How hard to look. `quick`, for a light that is being dragged, takes what the zoom finds;
+/// `careful` also looks beside failing rays and along the meridian, at up to three times the rays.
+enum class ProbeSearch { quick, careful };
+
 /// Looks for the part of the entrance that reaches the sensor along `path`, zooming in on the box
 /// of the cells that may pass until it shrinks no further; where that does not settle (islands,
 /// crescents), by find_pupil's cells. The beam must lie in the y–z plane. Tables are not needed:
 /// a search takes a few hundred rays.
 GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path,
-                       const BeamFrame& frame, const PupilBox& entrance, int cells);
+                       const BeamFrame& frame, const PupilBox& entrance, int cells,
+                       ProbeSearch search = ProbeSearch::careful);
 
 }  // namespace ghostlight

@@ -47,6 +47,7 @@ void print_drag(const std::string& name, const Prescription& lens) {
         const FlareScene scene = flare_scene(lens, spectrum);
         FlareRequest request;
         request.tolerance = 0.04;
+        request.search = ProbeSearch::quick;
         std::vector<double> total, parts[4];
         double error = 0.0;
         for (int k = -3; k < frames; ++k) {
