@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/flare/thin_piece.h"
+
 namespace ghostlight {
 namespace {
 
@@ -365,31 +367,14 @@ class Builder {
     }
 
     void add_points(const Point* polygon, int count, const std::array<double, C>& flux) {
-        // Along the longest diagonal, a quarter of a pixel apart.
-        int from = 0, to = 1;
-        double longest = -1.0;
-        for (int a = 0; a < count; ++a)
-            for (int b = a + 1; b < count; ++b) {
-                const double length =
-                    std::hypot(polygon[b].x - polygon[a].x, polygon[b].y - polygon[a].y);
-                if (length > longest) {
-                    longest = length;
-                    from = a;
-                    to = b;
-                }
-            }
-        const int parts = std::clamp(static_cast<int>(std::ceil(4.0 * longest)), 1, 1 << 16);
-        for (int k = 0; k < parts; ++k) {
-            const double t = (k + 0.5) / parts;
-            ColorPoint<C> point;
-            point.x = std::lerp(polygon[from].x, polygon[to].x, t);
-            point.y = std::lerp(polygon[from].y, polygon[to].y, t);
-            const Point spot{point.x, point.y};
-            if (is_off_frame(&spot, 1)) continue;
+        for_each_spot(polygon, count, [&](double x, double y, int parts) {
+            const Point spot{x, y};
+            if (is_off_frame(&spot, 1)) return;
+            ColorPoint<C> point{x, y, {}};
             for (int c = 0; c < C; ++c) point.flux[c] = flux[idx(c)] / parts;
             mesh_.edge_contrast += spot_contrast_per_px * point.flux[C - 1];
             mesh_.points.push_back(point);
-        }
+        });
     }
 
     static double contrast_of(const Point& a, const Point& b, const Plane<C>& value) {

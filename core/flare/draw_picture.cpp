@@ -1,11 +1,11 @@
 #include "core/flare/draw_picture.h"
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 #include <span>
 #include <utility>
 
+#include "core/elapsed.h"
 #include "core/flare/picture_levels.h"
 #include "core/parallel.h"
 
@@ -13,11 +13,6 @@ namespace ghostlight {
 namespace {
 
 constexpr int band_rows = 16;
-
-using Clock = std::chrono::steady_clock;
-double ms_since(Clock::time_point began) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - began).count();
-}
 
 /// Which bands of its level's picture each item touches, by counting sort.
 struct ByBand {

@@ -1,8 +1,8 @@
 #include "core/flare/flare_drawing.h"
 
-#include <chrono>
 #include <utility>
 
+#include "core/elapsed.h"
 #include "core/flare/planned_ghost.h"
 #include "core/parallel.h"
 
@@ -10,7 +10,7 @@ namespace ghostlight {
 
 std::optional<FlareDrawing> plan_drawing(const FlareScene& scene, const FlareRequest& request,
                                          std::stop_token stop) {
-    const auto began = std::chrono::steady_clock::now();
+    const auto began = Clock::now();
     const OpticalSystem& system = scene.system();
     FlareDrawing drawing;
     drawing.frame = pixel_frame(system.sensor_width_mm, system.sensor_height_mm, request.width_px);
@@ -35,8 +35,7 @@ std::optional<FlareDrawing> plan_drawing(const FlareScene& scene, const FlareReq
         drawing.plan.error_mm2 += planned.error_mm2;
         if (planned.fate == GhostFate::drawn) drawing.ghosts.push_back(std::move(prepared[g]));
     }
-    drawing.planning_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
+    drawing.planning_ms = ms_since(began);
     return drawing;
 }
 

@@ -1,10 +1,10 @@
 #include "core/flare/flare_image.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
+#include "core/elapsed.h"
 #include "core/flare/ghost_mesh.h"
 #include "core/flare/paraxial_flare.h"
 #include "core/flare/planned_flare.h"
@@ -20,11 +20,6 @@ constexpr int band_rows = 16;
 constexpr double reference_bend_px = 0.01;
 constexpr int coarsest_reference = 256, finest_reference = 640;
 constexpr double color_margin = 0.04;  ///< of a pupil's breadth, when it is shared by wavelengths
-
-using Clock = std::chrono::steady_clock;
-double ms_since(Clock::time_point began) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - began).count();
-}
 
 PupilBox widened(const PupilBox& box, double share) {
     const double du = share * (box.u1_mm - box.u0_mm), dv = share * (box.v1_mm - box.v0_mm);

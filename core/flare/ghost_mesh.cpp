@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/flare/thin_piece.h"
+
 namespace ghostlight {
 namespace {
 
@@ -156,27 +158,10 @@ class MeshBuilder {
     }
 
     void add_points(const Point* corner, int count, double flux_px) {
-        // Along the longest diagonal, a quarter of a pixel apart.
-        int from = 0, to = 1;
-        double longest = -1.0;
-        for (int a = 0; a < count; ++a)
-            for (int b = a + 1; b < count; ++b) {
-                const double length =
-                    std::hypot(corner[b].x - corner[a].x, corner[b].y - corner[a].y);
-                if (length > longest) {
-                    longest = length;
-                    from = a;
-                    to = b;
-                }
-            }
-        const int parts = std::clamp(static_cast<int>(std::ceil(4.0 * longest)), 1, 1 << 16);
-        for (int k = 0; k < parts; ++k) {
-            const double t = (k + 0.5) / parts;
-            const double x = std::lerp(corner[from].x, corner[to].x, t);
-            const double y = std::lerp(corner[from].y, corner[to].y, t);
+        for_each_spot(corner, count, [&](double x, double y, int parts) {
             if (x >= 0.0 && x < frame_.width_px && y >= 0.0 && y < frame_.height_px)
                 mesh_.points.push_back({x, y, flux_px / parts});
-        }
+        });
     }
 
     void emit(const Point& a, const Point& b, const LinearValue& value) {

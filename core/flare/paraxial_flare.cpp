@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "core/elapsed.h"
 #include "core/flare/draw_picture.h"
 #include "core/flare/planned_ghost.h"
 #include "core/optics/paraxial.h"
@@ -180,7 +180,7 @@ class ParaxialPainter {
 template <int C>
 std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& request,
                                  const std::stop_token& stop) {
-    const auto began = std::chrono::steady_clock::now();
+    const auto began = Clock::now();
     const OpticalSystem& system = scene.system();
     const PixelFrame frame =
         pixel_frame(system.sensor_width_mm, system.sensor_height_mm, request.width_px);
@@ -197,8 +197,7 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
         image.flux_mm2 += ghost.mesh.flux_mm2[C - 1];
         image.cells += ghost.mesh.cells;
     }
-    image.times.total_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count();
+    image.times.total_ms = ms_since(began);
     return image;
 }
 

@@ -1,20 +1,15 @@
 #include "core/flare/planned_flare.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "core/elapsed.h"
 #include "core/flare/draw_picture.h"
 #include "core/flare/planned_ghost.h"
 #include "core/parallel.h"
 
 namespace ghostlight {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-double ms_since(Clock::time_point began) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - began).count();
-}
 
 template <int C>
 std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& request,

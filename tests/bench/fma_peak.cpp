@@ -1,8 +1,5 @@
 #include "tests/bench/fma_peak.h"
 
-#include <string_view>
-
-#include "core/ghosts/bundle.h"
 #include "core/instruction_set.h"
 
 namespace ghostlight::bench {
