@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "core/flare/spectrum.h"
 #include "core/optics/prescription.h"
@@ -27,12 +26,5 @@ double half_field_deg(const Prescription& configured);
 
 /// The wavelength by which single rays are drawn: the light's own, else the d line.
 double drawing_wavelength_nm(const Scene& scene);
-
-/// In a lens file the scene is the field "scene", which readers of lenses pass over.
-inline constexpr std::string_view scene_field = "scene";
-std::string scene_to_json(const Scene& scene);
-/// Takes what it understands from the text and the rest from `otherwise`: a scene is a
-/// convenience and never a reason to refuse a lens. The configuration must be one of the lens's.
-Scene scene_from_json(std::string_view text, const Prescription& lens, const Scene& otherwise);
 
 }  // namespace ghostlight
