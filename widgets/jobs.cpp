@@ -98,52 +98,45 @@ void Jobs::cancel_table() {
     }
 }
 
-const FlareScene& Jobs::compiled(const Snapshot& job) {
-    if (!compiled_ || compiled_->lens != job.lens ||
-        compiled_->scene.spectrum != job.scene.spectrum) {
-        compiled_.reset();
-        compiled_.emplace(job.lens, flare_scene(job.lens, job.scene.spectrum));
-    }
-    return compiled_->scene;
-}
-
 void Jobs::work_on_flare(const Snapshot& job, const std::stop_token& stop) {
-    const auto render = [&](double tolerance, int width_px, const std::stop_token& token,
-                            bool is_final) {
+    const DrawGhosts draw = [](const FlareScene& scene, const FlareRequest& request,
+                               std::stop_token token) {
+        return render_planned(scene, request, std::move(token));
+    };
+    const auto wanted = [&](double tolerance, int width_px, bool is_final) {
         FlareRequest request;
-        request.light = job.scene.light;
         request.tolerance = tolerance;
         request.search = is_final ? ProbeSearch::careful : ProbeSearch::quick;
         request.width_px = width_px;
         request.highlighted = job.highlighted;
-        request.spectrum = job.scene.spectrum;
-        const FlareScene& scene = compiled(job);
-        std::optional<FlareImage> image = can_be_planned(scene.system(), request.light)
-                                              ? render_planned(scene, request, token)
-                                              : render_flare(job.lens, request, token);
-        if (!image) {
+        return LayeredPicture::Wanted{job.lens, job.scene, std::move(request), is_final};
+    };
+    const auto render = [&](const LayeredPicture::Wanted& of, const std::stop_token& token) {
+        std::optional<LayeredPicture::Result> made = layered_.make(of, draw, token);
+        if (!made) {
             return 0.0;
         }
-        const double took_ms = image->times.total_ms;
-        FlarePicture picture{std::make_shared<const FlareImage>(std::move(*image)), job.revision,
-                             job.changed_at, is_final};
+        FlarePicture picture{std::move(made->sum), job.revision, job.changed_at, of.is_final,
+                             std::move(made->layers)};
         QMetaObject::invokeMethod(
             this, [this, picture, serial = job.serial] { take_flare(picture, serial); },
             Qt::QueuedConnection);
-        return took_ms;
+        return made->drawing_ms;
     };
     try {
         // Not interrupted: else a light that moves faster than pictures come would show none.
         const Coarse& coarse = coarse_pictures[static_cast<std::size_t>(coarseness_)];
-        const double took_ms =
-            job.coarse_first ? render(coarse.tolerance, coarse.width_px, {}, false) : quick_ms;
+        const auto at_rest = wanted(job.scene.flare_tolerance, FlareRequest{}.width_px, true);
+        const double took_ms = job.coarse_first && !layered_.is_at_rest(at_rest)
+                                   ? render(wanted(coarse.tolerance, coarse.width_px, false), {})
+                                   : quick_ms;
         if (took_ms > too_slow_ms) {
             coarseness_ = std::min(coarseness_ + 1, static_cast<int>(coarse_pictures.size()) - 1);
         } else if (took_ms < quick_ms) {
             coarseness_ = std::max(coarseness_ - 1, 0);
         }
         if (!stop.stop_requested()) {
-            render(job.scene.flare_tolerance, FlareRequest{}.width_px, stop, true);
+            render(at_rest, stop);
         }
     } catch (const std::exception& error) {
         QMetaObject::invokeMethod(
@@ -157,8 +150,8 @@ void Jobs::work_on_flare(const Snapshot& job, const std::stop_token& stop) {
 
 void Jobs::work_on_table(const Snapshot& job, const std::stop_token& stop) {
     GhostTableRequest request;
-    request.light = job.scene.light;
-    request.spectrum = job.scene.spectrum;
+    request.light = job.scene.light().direction;
+    request.spectrum = job.scene.light().spectrum;
     request.tolerance = job.scene.tolerance;
     std::atomic<int> reported_percent{-1};
     const Progress progress = [&](double share) {

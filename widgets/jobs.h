@@ -13,6 +13,7 @@
 #include "core/flare/flare_scene.h"
 #include "core/ghosts/ghost_table.h"
 #include "widgets/document.h"
+#include "widgets/layered_picture.h"
 #include "widgets/newest_job.h"
 #include "widgets/selection.h"
 
@@ -23,7 +24,8 @@ struct FlarePicture {
     std::shared_ptr<const FlareImage> image;
     std::uint64_t revision = 0;
     std::chrono::steady_clock::time_point changed_at{};  ///< of that revision
-    bool is_final = false;  ///< else a coarse one, to be followed by a finer
+    bool is_final = false;                ///< else a coarse one, to be followed by a finer
+    std::vector<ShownLayer> layers = {};  ///< that the image is the sum of, without their gains
 };
 
 /// The work behind the views, off the GUI thread: after every change a coarse picture at once, a
@@ -65,7 +67,6 @@ class Jobs : public QObject {
     void follow_document();
     void request_flare(bool coarse_first);
     void request_table();
-    const FlareScene& compiled(const Snapshot& snapshot);
     void work_on_flare(const Snapshot& snapshot, const std::stop_token& stop);
     void work_on_table(const Snapshot& snapshot, const std::stop_token& stop);
     void take_flare(const FlarePicture& picture, std::uint64_t serial);
@@ -82,12 +83,7 @@ class Jobs : public QObject {
     bool table_open_ = false;
     // Both belong to the flare's thread.
     int coarseness_ = 0;  ///< of coarse pictures
-    /// The lens compiled for pictures, as long as it and its light's spectrum stay the same.
-    struct CompiledLens {
-        Prescription lens;
-        FlareScene scene;
-    };
-    std::optional<CompiledLens> compiled_;
+    LayeredPicture layered_;
     std::unique_ptr<NewestJob<Snapshot>> flare_job_;
     std::unique_ptr<NewestJob<Snapshot>> table_job_;
 };

@@ -30,6 +30,8 @@ std::string fate_name(GhostFate fate) {
             return "nothing passes";
         case GhostFate::left_out:
             return "left out";
+        case GhostFate::folded:
+            return "folded";
     }
     return {};
 }

@@ -13,7 +13,8 @@ enum class GhostFate {
     drawn,
     off_sensor,      ///< its light lands beside the sensor
     nothing_passes,  ///< no ray was found that passes
-    left_out         ///< not traced: only bounded
+    left_out,        ///< not traced: only bounded
+    folded           ///< in the veil, by its flux and moments
 };
 
 /// How one ghost of a picture is drawn, and what that costs. Fluxes are over E0, mm².

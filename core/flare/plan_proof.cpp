@@ -34,6 +34,10 @@ std::optional<PlanProof> certify(const FlareScene& scene, const LightDirection& 
             const PlannedGhost& planned = plan.ghosts[g];
             GhostProof& ghost = result.ghosts[g];
             ghost.path = planned.path;
+            if (planned.fate == GhostFate::folded) {  // not drawn: nothing that could be missed
+                ghost.certified = true;
+                return;
+            }
             if (planned.fate == GhostFate::left_out) {
                 ghost.proof.missed_flux_bound_mm2 = planned.bound_mm2;
             } else {

@@ -454,6 +454,16 @@ void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
     choose_level(chosen, mesh.edge_contrast * frame_.pixel_area_mm2(), planned);
 }
 
+MeshNodes GhostPlanner::landed(const ProbedGhost& ghost) const {
+    const MirrorGrid& grid = ghost.grids[scene_.main];
+    MeshNodes nodes = place(grid);
+    interpolate(
+        grid,
+        light_of<color_channels>(grid, ghost.weights, channel_shares<color_channels>(scene_, 0, 1)),
+        color_channels, nodes.cells, nodes.weights);
+    return nodes;
+}
+
 GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
     PlannedGhost& planned = ghost.planned;
     const Fineness chosen = choose(ghost);

@@ -38,13 +38,12 @@ Scene default_scene(const Prescription& lens) {
     } catch (const Error&) {
     }
     inside_deg = std::min({10.0, inside_deg, 0.6 * half_field_deg(lens)});
-    scene.light.field_deg = std::round(inside_deg * 10.0) / 10.0;
+    scene.light().direction.field_deg = std::round(inside_deg * 10.0) / 10.0;
     return scene;
 }
 
 double drawing_wavelength_nm(const Scene& scene) {
-    const auto* line = std::get_if<Monochromatic>(&scene.spectrum);
-    return line != nullptr ? line->wavelength_nm : d_line_nm;
+    return line_nm(scene.light().spectrum).value_or(d_line_nm);
 }
 
 }  // namespace ghostlight
