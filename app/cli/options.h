@@ -68,7 +68,8 @@ CLI::Option* add_text(CLI::App& command, const std::string& name, std::string& v
 struct LensOptions {
     std::string lens, config, f_number, stop_semi_diameter, sensor, sensor_reflectance, coating;
 };
-CLI::Option* add_lens(CLI::App& command, LensOptions& options);
+/// `name` is "LENS", or an option's.
+CLI::Option* add_lens(CLI::App& command, LensOptions& options, const std::string& name = "LENS");
 
 /// What may follow --coating. Throws Error.
 Coating parse_coating(std::string_view text);

@@ -24,6 +24,14 @@ double relative_l1(const FlareImage& a, const FlareImage& b) {
     return difference / sum;
 }
 
+/// Closed to f/16, ghosts are small and show the light's shape.
+Prescription closed(const std::string& lens) {
+    Prescription at = bundled(lens);
+    at.stop.semi_diameter_mm.reset();
+    at.stop.f_number = 16.0;
+    return at;
+}
+
 FlareRequest request_at(double field_deg, double azimuth_deg, int width_px = 320) {
     FlareRequest request;
     request.light = {field_deg, azimuth_deg};
@@ -59,12 +67,12 @@ FlareImage mean_over_disc(const FlareScene& scene, const FlareRequest& request, 
 TEST(ExtendedFlareSlow, ASunIsTheMeanOfPointsOverItsDisc) {
     // Points leave dots that the disc has not; both pictures' own errors; folding's second order.
     constexpr double tolerance = 0.06;
-    for (const auto& [lens, azimuth] : {std::pair("tessar_brendel_100_f2.8", 90.0),
+    for (const auto& [lens, azimuth] : {std::pair("cooke_triplet_50_f5", 90.0),
                                         std::pair("double_gauss_tronnier_100_f2", 30.0)}) {
-        const FlareScene scene = flare_scene(bundled(lens), Monochromatic{});
-        FlareRequest request = request_at(8.0, azimuth, 240);
+        const FlareScene scene = flare_scene(closed(lens), Monochromatic{});
+        FlareRequest request = request_at(6.0, azimuth, 200);
         const FlareImage points = mean_over_disc(
-            scene, request, 0.5 * sun_diameter_deg * std::numbers::pi / 180.0, 8, 16);
+            scene, request, 0.5 * sun_diameter_deg * std::numbers::pi / 180.0, 6, 14);
         const FlareImage point = *render_planned(scene, request);
         const FlareImage sun = *render_extended(scene, request, disc_pattern(sun_diameter_deg), {});
         EXPECT_LT(relative_l1(sun, points), tolerance) << lens;
@@ -135,14 +143,15 @@ TEST(ExtendedFlare, AnArtistsGainTintAndSwitch) {
 }
 
 TEST(ExtendedFlare, AnOffsetMovesAGhost) {
-    const FlareScene scene = flare_scene(bundled("cooke_triplet_50_f5"), Monochromatic{});
-    FlareRequest request = request_at(3.0, 90.0);
+    const FlareScene scene = flare_scene(closed("cooke_triplet_50_f5"), Monochromatic{});
+    FlareRequest request = request_at(2.0, 90.0);
     const auto moments = ghost_moments(scene, scene.ghosts, request);
-    std::size_t inner = 0;  // one that lies well inside
+    std::size_t inner = scene.ghosts.size();  // one that lies well inside
     for (std::size_t g = 0; g < moments->size(); ++g) {
         const GhostMoments& m = (*moments)[g];
-        if (m.flux() > 0.0 && std::abs(m.y_mm) < 4.0 && m.sigmas_mm()[1] < 2.0) inner = g;
+        if (m.flux() > 0.0 && std::abs(m.y_mm) < 5.0 && m.sigmas_mm()[1] < 1.5) inner = g;
     }
+    ASSERT_LT(inner, scene.ghosts.size());
     request.only = {scene.ghosts[inner]};
     const auto centroid = [](const FlareImage& image) {
         double x = 0.0, y = 0.0, sum = 0.0;
@@ -167,7 +176,7 @@ TEST(ExtendedFlare, AnOffsetMovesAGhost) {
 }
 
 TEST(GhostMoments, AreThoseOfThePicture) {
-    const FlareScene scene = flare_scene(bundled("tessar_brendel_100_f2.8"), Monochromatic{});
+    const FlareScene scene = flare_scene(closed("cooke_triplet_50_f5"), Monochromatic{});
     FlareRequest request = request_at(3.0, 40.0, 640);
     const auto moments = ghost_moments(scene, scene.ghosts, request);
     int compared = 0;

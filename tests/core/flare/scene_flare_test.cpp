@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/flare/planned_flare.h"
+#include "core/ghosts/ghost_table.h"
 #include "core/io/scene_pictures.h"
 #include "tests/support/optics_kit.h"
 

@@ -1,0 +1,40 @@
+#include "core/flare/image_place.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/units.h"
+
+namespace ghostlight {
+
+ImagePlace::ImagePlace(const OpticalSystem& system) {
+    constexpr double last_deg = 89.0;
+    constexpr int points = 357;  // every quarter of a degree
+    const double needed_mm = 0.6 * std::hypot(system.sensor_width_mm, system.sensor_height_mm);
+    for (const FieldPoint& point : field_curves(system, last_deg, points)) {
+        const bool rises = curve_.empty() || std::abs(point.image_height_mm) >
+                                                 std::abs(curve_.back().image_height_mm);
+        if (!std::isfinite(point.image_height_mm) || !rises) break;
+        curve_.push_back(point);
+        if (std::abs(point.image_height_mm) > needed_mm) break;
+    }
+    if (curve_.size() < 2)
+        throw Error("no chief ray of the lens gets to the sensor: no image could have a light");
+}
+
+std::optional<LightDirection> ImagePlace::light_at(double x_mm, double y_mm) const {
+    const double height_mm = std::hypot(x_mm, y_mm);
+    for (std::size_t k = 1; k < curve_.size(); ++k) {
+        const double low = std::abs(curve_[k - 1].image_height_mm);
+        const double high = std::abs(curve_[k].image_height_mm);
+        if (height_mm > high) continue;
+        const double field_deg = std::lerp(curve_[k - 1].field_deg, curve_[k].field_deg,
+                                           (height_mm - low) / (high - low));
+        // An image on the far side of the axis: its light comes the other way round.
+        const double turn = curve_[k].image_height_mm < 0.0 ? std::numbers::pi : 0.0;
+        return LightDirection{field_deg, deg_from_rad(std::atan2(y_mm, x_mm) + turn)};
+    }
+    return std::nullopt;
+}
+
+}  // namespace ghostlight
