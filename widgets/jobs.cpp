@@ -59,10 +59,22 @@ Jobs::Snapshot Jobs::snapshot(std::uint64_t serial) const {
             false};
 }
 
+Jobs::TableSubject Jobs::table_subject() const {
+    const Scene& scene = document_.scene();
+    return {document_.lens(), scene.configuration, scene.light().direction, scene.light().spectrum,
+            scene.tolerance};
+}
+
 void Jobs::follow_document() {
+    request_flare(true);
+    TableSubject subject = table_subject();
+    const bool is_another_lens = document_.revision() == document_.first_revision();
+    if (!is_another_lens && table_subject_ == subject) {
+        return;  // layers, gains, other lights
+    }
+    table_subject_ = std::move(subject);
     table_job_->cancel();
     table_open_ = true;
-    request_flare(true);
     table_delay_.start();
 }
 
@@ -91,6 +103,7 @@ void Jobs::request_table() {
 void Jobs::cancel_table() {
     table_delay_.stop();
     table_job_->cancel();
+    table_subject_.reset();
     if (table_open_) {
         ++table_serial_;
         Q_EMIT table_cancelled();
@@ -206,6 +219,7 @@ void Jobs::take_table(std::shared_ptr<const GhostTable> table, std::uint64_t ser
 
 void Jobs::fail(const QString& reason, std::uint64_t serial, bool& open, std::uint64_t newest) {
     if (serial == newest) {
+        table_subject_.reset();  // whatever comes next may try again
         Q_EMIT failed(reason);
         close(open);
     }

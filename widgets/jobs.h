@@ -40,6 +40,7 @@ class Jobs : public QObject {
 
     /// True while a result for the document's present revision is still to come.
     bool is_busy() const { return flare_open_ || table_open_; }
+    bool awaits_table() const { return table_open_; }
     /// Gives up the ghost table until the next change.
     void cancel_table();
 
@@ -64,6 +65,16 @@ class Jobs : public QObject {
         bool coarse_first = false;
     };
     Snapshot snapshot(std::uint64_t serial) const;
+    /// What the ghost table is made from: changes of anything else leave it as it is.
+    struct TableSubject {
+        Prescription lens;
+        std::string configuration;
+        LightDirection light;
+        Spectrum spectrum;
+        double tolerance = 0.0;
+        bool operator==(const TableSubject&) const = default;
+    };
+    TableSubject table_subject() const;
     void follow_document();
     void request_flare(bool coarse_first);
     void request_table();
@@ -81,6 +92,7 @@ class Jobs : public QObject {
     std::uint64_t table_serial_ = 0;
     bool flare_open_ = false;
     bool table_open_ = false;
+    std::optional<TableSubject> table_subject_;  ///< of the table that is there or to come
     // Both belong to the flare's thread.
     int coarseness_ = 0;  ///< of coarse pictures
     LayeredPicture layered_;

@@ -212,7 +212,9 @@ void MainWindow::connect_document() {
             selection_.set_ghosts({});
         }
         flare_->set_dimmed(true);
-        ghosts_->set_refining(0.0);
+        if (jobs_->awaits_table()) {
+            ghosts_->set_refining(0.0);
+        }
         scene_update_.start();
     });
     connect(&document_, &Document::file_changed, this, &MainWindow::show_title);

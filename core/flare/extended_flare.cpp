@@ -334,4 +334,24 @@ void add_image(FlareImage& image, const FlareImage& other, const std::array<doub
     image.times.total_ms += other.times.total_ms;
 }
 
+void move_image(FlareImage& image, int right_px, int up_px) {
+    if (right_px == 0 && up_px == 0) return;
+    const auto moved = [&](const std::vector<float>& from, int channels) {
+        std::vector<float> to(from.size(), 0.0F);
+        if (from.empty()) return to;
+        for (int row = 0; row < image.height_px; ++row)
+            for (int column = 0; column < image.width_px; ++column) {
+                const int i = column - right_px, j = row - up_px;
+                if (i < 0 || j < 0 || i >= image.width_px || j >= image.height_px) continue;
+                for (int c = 0; c < channels; ++c)
+                    to[idx((row * image.width_px + column) * channels + c)] =
+                        from[idx((j * image.width_px + i) * channels + c)];
+            }
+        return to;
+    };
+    image.rgb = moved(image.rgb, 3);
+    image.irradiance = moved(image.irradiance, 1);
+    image.highlight = moved(image.highlight, 1);
+}
+
 }  // namespace ghostlight

@@ -40,4 +40,7 @@ std::optional<FlareImage> render_sampled(const Prescription& lens, const FlareRe
 /// Rec.709, irradiance.
 void add_image(FlareImage& image, const FlareImage& other, const std::array<double, 4>& gain);
 
+/// Moves a picture by whole pixels; what comes in is dark.
+void move_image(FlareImage& image, int right_px, int up_px);
+
 }  // namespace ghostlight

@@ -60,6 +60,37 @@ FlareRequest of_light(FlareRequest request, const Light& light) {
     return request;
 }
 
+/// By an engine that draws ghosts as they are: a light of some extent is sampled, and an artist's
+/// changes are made ghost by ghost, offsets to whole pixels.
+std::optional<FlareImage> engine_image(const SceneView& view, const FlareRequest& request,
+                                       const LightPattern& pattern,
+                                       const std::vector<GhostPath>& ghosts,
+                                       const std::stop_token& stop) {
+    const auto whole = [&](const FlareRequest& one) {
+        return pattern.is_point() ? render_flare(view.lens, one, stop)
+                                  : render_sampled(view.lens, one, pattern, sampled_patches, stop);
+    };
+    const Artistic& artistic = view.scene.artistic;
+    if (artistic.is_neutral()) return whole(request);
+    FlareImage sum = black_image(view.lens.sensor, request.width_px);
+    const double pitch_mm =
+        pixel_frame(view.lens.sensor.width_mm, view.lens.sensor.height_mm, request.width_px)
+            .pitch_mm;
+    for (const GhostPath& path : request.only.empty() ? ghosts : request.only) {
+        const GhostLook look = look_of(artistic, path);
+        if (!look.on) continue;
+        FlareRequest one = request;
+        one.only = {path};
+        std::optional<FlareImage> image = whole(one);
+        if (!image) return std::nullopt;
+        move_image(*image, static_cast<int>(std::lround(look.offset_x_mm / pitch_mm)),
+                   static_cast<int>(std::lround(look.offset_y_mm / pitch_mm)));
+        add_image(sum, *image, look.gain);
+        ++sum.ghosts;
+    }
+    return sum;
+}
+
 std::optional<FlareImage> ghosts_of(const SceneView& view, const Light& light,
                                     const FlareRequest& request, const std::stop_token& stop) {
     const FlareScene& compiled = view.spectra.of(view.lens, light.spectrum);
@@ -72,12 +103,12 @@ std::optional<FlareImage> ghosts_of(const SceneView& view, const Light& light,
                          can_be_planned(compiled.system(), light.direction);
     const Artistic& artistic = view.scene.artistic;
     std::optional<FlareImage> image;
-    if (planned && !(pattern.is_point() && artistic.is_neutral())) {
-        image = render_extended(compiled, one, pattern, artistic, stop);
-    } else if (pattern.is_point()) {
-        image = planned ? view.draw(compiled, one, stop) : render_flare(view.lens, one, stop);
+    if (!planned) {
+        image = engine_image(view, one, pattern, compiled.ghosts, stop);
+    } else if (pattern.is_point() && artistic.is_neutral()) {
+        image = view.draw(compiled, one, stop);
     } else {
-        image = render_sampled(view.lens, one, pattern, sampled_patches, stop);
+        image = render_extended(compiled, one, pattern, artistic, stop);
     }
     if (image && folded->is_any())
         for (const GhostPath& path : compiled.ghosts)

@@ -136,6 +136,20 @@ TEST_F(SceneFlare, FoldedGhostsKeepTheirLight) {
     EXPECT_EQ(ghosts().irradiance, all.irradiance);
 }
 
+TEST_F(SceneFlare, OtherEnginesTakeSizesAndArtisticChangesToo) {
+    scene.light().spectrum = Monochromatic{};
+    scene.light().size = DiscSize{1.0};
+    scene.artistic.exaggeration_ev = 1.0;
+    request.width_px = 96;
+    const FlareImage planned = ghosts();
+    request.method = FlareMethod::uniform;
+    const FlareImage uniform = ghosts();
+    // Twenty-five patches for a disc, and grids of another kind.
+    EXPECT_NEAR(uniform.flux_on_sensor_mm2 / planned.flux_on_sensor_mm2, 1.0, 0.03);
+    scene.artistic.exaggeration_ev = 0.0;
+    EXPECT_NEAR(ghosts().flux_on_sensor_mm2 / uniform.flux_on_sensor_mm2, 0.5, 0.01);
+}
+
 TEST(Foldable, TakesTheFaintAndBroadUpToItsShare) {
     const auto spot = [](double flux, double sigma) {
         GhostMoments m;
