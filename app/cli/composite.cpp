@@ -23,7 +23,7 @@ namespace {
 
 struct CompositeOptions {
     std::string in, out, frames, light = "auto", threshold, most = "4", gain = "0", size, folded,
-                                 tolerance = "0.02";
+                                 tolerance = "0.005";
     bool clamps = false, only_flare = false, dry = false;
     LensOptions lens;
     SpectrumOptions spectrum;

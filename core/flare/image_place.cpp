@@ -8,15 +8,19 @@
 namespace ghostlight {
 
 ImagePlace::ImagePlace(const OpticalSystem& system) {
-    constexpr double last_deg = 89.0;
-    constexpr int points = 357;  // every quarter of a degree
     const double needed_mm = 0.6 * std::hypot(system.sensor_width_mm, system.sensor_height_mm);
-    for (const FieldPoint& point : field_curves(system, last_deg, points)) {
-        const bool rises = curve_.empty() || std::abs(point.image_height_mm) >
-                                                 std::abs(curve_.back().image_height_mm);
-        if (!std::isfinite(point.image_height_mm) || !rises) break;
-        curve_.push_back(point);
-        if (std::abs(point.image_height_mm) > needed_mm) break;
+    constexpr double points_per_deg = 4.0;
+    // No further than the picture reaches: far off the axis chief rays are hard to find.
+    for (const double last_deg : {10.0, 20.0, 40.0, 89.0}) {
+        curve_.clear();
+        for (const FieldPoint& point :
+             field_curves(system, last_deg, static_cast<int>(points_per_deg * last_deg) + 1)) {
+            const bool rises = curve_.empty() || std::abs(point.image_height_mm) >
+                                                     std::abs(curve_.back().image_height_mm);
+            if (!std::isfinite(point.image_height_mm) || !rises) break;
+            curve_.push_back(point);
+        }
+        if (curve_.empty() || std::abs(curve_.back().image_height_mm) > needed_mm) break;
     }
     if (curve_.size() < 2)
         throw Error("no chief ray of the lens gets to the sensor: no image could have a light");

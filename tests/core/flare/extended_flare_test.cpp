@@ -67,19 +67,17 @@ FlareImage mean_over_disc(const FlareScene& scene, const FlareRequest& request, 
 TEST(ExtendedFlareSlow, ASunIsTheMeanOfPointsOverItsDisc) {
     // Points leave dots that the disc has not; both pictures' own errors; folding's second order.
     constexpr double tolerance = 0.06;
-    for (const auto& [lens, azimuth] : {std::pair("cooke_triplet_50_f5", 90.0),
-                                        std::pair("double_gauss_tronnier_100_f2", 30.0)}) {
-        const FlareScene scene = flare_scene(closed(lens), Monochromatic{});
-        FlareRequest request = request_at(6.0, azimuth, 200);
-        const FlareImage points = mean_over_disc(
-            scene, request, 0.5 * sun_diameter_deg * std::numbers::pi / 180.0, 6, 14);
-        const FlareImage point = *render_planned(scene, request);
-        const FlareImage sun = *render_extended(scene, request, disc_pattern(sun_diameter_deg), {});
-        EXPECT_LT(relative_l1(sun, points), tolerance) << lens;
-        // The test can fail: a point's flare is not the sun's.
-        EXPECT_GT(relative_l1(point, points), 2.0 * tolerance) << lens;
-        EXPECT_NEAR(sun.flux_on_sensor_mm2 / points.flux_on_sensor_mm2, 1.0, 0.02) << lens;
-    }
+    // A lens whose ghosts move far against their size.
+    const FlareScene scene = flare_scene(closed("double_gauss_tronnier_100_f2"), Monochromatic{});
+    const FlareRequest request = request_at(6.0, 30.0, 200);
+    const FlareImage points =
+        mean_over_disc(scene, request, 0.5 * sun_diameter_deg * std::numbers::pi / 180.0, 6, 14);
+    const FlareImage point = *render_planned(scene, request);
+    const FlareImage sun = *render_extended(scene, request, disc_pattern(sun_diameter_deg), {});
+    EXPECT_LT(relative_l1(sun, points), tolerance);
+    // The test can fail: a point's flare is not the sun's.
+    EXPECT_GT(relative_l1(point, points), 2.0 * tolerance);
+    EXPECT_NEAR(sun.flux_on_sensor_mm2 / points.flux_on_sensor_mm2, 1.0, 0.02);
 }
 
 TEST(ExtendedFlareSlow, ABroadLightIsSampledWhereFoldingWouldNotServe) {
@@ -87,7 +85,7 @@ TEST(ExtendedFlareSlow, ABroadLightIsSampledWhereFoldingWouldNotServe) {
     const FlareRequest request = request_at(6.0, 60.0, 160);
     constexpr double diameter_deg = 6.0;
     const FlareImage points =
-        mean_over_disc(scene, request, 0.5 * diameter_deg * std::numbers::pi / 180.0, 10, 20);
+        mean_over_disc(scene, request, 0.5 * diameter_deg * std::numbers::pi / 180.0, 7, 14);
     const FlareImage disc = *render_extended(scene, request, disc_pattern(diameter_deg), {});
     EXPECT_LT(relative_l1(disc, points), 0.12);
     EXPECT_NEAR(disc.flux_on_sensor_mm2 / points.flux_on_sensor_mm2, 1.0, 0.03);
