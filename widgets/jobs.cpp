@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/flare/planned_flare.h"
+#include "core/flare/paraxial_flare.h"
 
 namespace ghostlight {
 
@@ -27,15 +27,22 @@ constexpr double quick_ms = 12.0;
 
 }  // namespace
 
-Jobs::Jobs(Document& document, Selection& selection, QObject* parent)
-    : QObject(parent), document_(document), selection_(selection) {
+Jobs::Jobs(Document& document, Selection& selection, MakeGlEngine make_gl, QObject* parent)
+    : QObject(parent),
+      document_(document),
+      selection_(selection),
+      engines_(std::move(make_gl)),
+      reported_(engines_.state()) {
+    qRegisterMetaType<EngineState>();
     flare_job_ = std::make_unique<NewestJob<Snapshot>>(
-        [this](const Snapshot& job, std::stop_token stop) { work_on_flare(job, stop); });
+        [this](const Snapshot& job, std::stop_token stop) { work_on_flare(job, stop); },
+        [this] { engines_.close(); });  // OpenGL's context belongs to that thread
     table_job_ = std::make_unique<NewestJob<Snapshot>>(
         [this](const Snapshot& job, std::stop_token stop) { work_on_table(job, stop); });
     table_delay_.setSingleShot(true);
     table_delay_.setInterval(table_delay_ms);
     connect(&table_delay_, &QTimer::timeout, this, &Jobs::request_table);
+    connect(&document_, &Document::opened, this, [this] { awaits_first_look_ = true; });
     connect(&document_, &Document::changed, this, &Jobs::follow_document);
     // Another highlight of the same picture: a coarse one between would only flicker.
     connect(&selection_, &Selection::ghosts_changed, this, [this] { request_flare(false); });
@@ -56,7 +63,16 @@ Jobs::Snapshot Jobs::snapshot(std::uint64_t serial) const {
             document_.revision(),
             serial,
             document_.changed_at(),
-            false};
+            false,
+            awaits_first_look_,
+            engine_};
+}
+
+void Jobs::set_engine(FlareEngine wish) {
+    if (wish != engine_) {
+        engine_ = wish;
+        request_flare(false);
+    }
 }
 
 void Jobs::follow_document() {
@@ -107,44 +123,74 @@ const FlareScene& Jobs::compiled(const Snapshot& job) {
     return compiled_->scene;
 }
 
-void Jobs::work_on_flare(const Snapshot& job, const std::stop_token& stop) {
-    const auto render = [&](double tolerance, int width_px, const std::stop_token& token,
-                            bool is_final) {
-        FlareRequest request;
-        request.light = job.scene.light;
-        request.tolerance = tolerance;
-        request.search = is_final ? ProbeSearch::careful : ProbeSearch::quick;
-        request.width_px = width_px;
-        request.highlighted = job.highlighted;
-        request.spectrum = job.scene.spectrum;
-        const FlareScene& scene = compiled(job);
-        std::optional<FlareImage> image = can_be_planned(scene.system(), request.light)
-                                              ? render_planned(scene, request, token)
-                                              : render_flare(job.lens, request, token);
+void Jobs::show(FlareImage image, const Snapshot& job, bool is_final, bool is_first_look) {
+    FlarePicture picture{std::make_shared<const FlareImage>(std::move(image)), job.revision,
+                         job.changed_at, is_final, is_first_look};
+    QMetaObject::invokeMethod(
+        this, [this, picture, serial = job.serial] { take_flare(picture, serial); },
+        Qt::QueuedConnection);
+}
+
+void Jobs::report_engine() {
+    if (reported_ == engines_.state()) {
+        return;
+    }
+    reported_ = engines_.state();
+    QMetaObject::invokeMethod(
+        this, [this, state = reported_] { Q_EMIT engine_changed(state); }, Qt::QueuedConnection);
+}
+
+void Jobs::draw_flare(const Snapshot& job, const std::stop_token& stop) {
+    const FlareScene& scene = compiled(job);
+    FlareRequest request;
+    request.light = job.scene.light;
+    request.highlighted = job.highlighted;
+    request.spectrum = job.scene.spectrum;
+    request.tolerance = job.scene.flare_tolerance;
+    const bool is_planned = can_be_planned(scene.system(), request.light);
+    const auto draw = [&](const FlareRequest& wanted, const std::stop_token& token, bool is_final) {
+        std::optional<FlareImage> image = is_planned ? engines_.draw(scene, wanted, token)
+                                                     : render_flare(job.lens, wanted, token);
         if (!image) {
             return 0.0;
         }
         const double took_ms = image->times.total_ms;
-        FlarePicture picture{std::make_shared<const FlareImage>(std::move(*image)), job.revision,
-                             job.changed_at, is_final};
-        QMetaObject::invokeMethod(
-            this, [this, picture, serial = job.serial] { take_flare(picture, serial); },
-            Qt::QueuedConnection);
+        show(std::move(*image), job, is_final, false);
         return took_ms;
     };
-    try {
-        // Not interrupted: else a light that moves faster than pictures come would show none.
+    if (job.first_look) {
+        if (auto image = render_paraxial(scene, request)) {
+            show(std::move(*image), job, false, true);
+        }
+    }
+    engines_.wish(job.engine);
+    if (job.coarse_first) {
+        FlareRequest rough = request;
         const Coarse& coarse = coarse_pictures[static_cast<std::size_t>(coarseness_)];
-        const double took_ms =
-            job.coarse_first ? render(coarse.tolerance, coarse.width_px, {}, false) : quick_ms;
+        rough.tolerance = coarse.tolerance;
+        rough.width_px = coarse.width_px;
+        rough.search = ProbeSearch::quick;
+        // Not interrupted: else a light that moves faster than pictures come would show none.
+        const double took_ms = draw(rough, {}, false);
         if (took_ms > too_slow_ms) {
             coarseness_ = std::min(coarseness_ + 1, static_cast<int>(coarse_pictures.size()) - 1);
         } else if (took_ms < quick_ms) {
             coarseness_ = std::max(coarseness_ - 1, 0);
         }
-        if (!stop.stop_requested()) {
-            render(job.scene.flare_tolerance, FlareRequest{}.width_px, stop, true);
-        }
+    }
+    if (!stop.stop_requested()) {
+        draw(request, stop, true);
+    }
+    // Nobody waits now. What OpenGL takes over, it draws at once: so it is seen to work.
+    if (is_planned && engines_.settle(scene, request, stop)) {
+        draw(request, stop, true);
+    }
+    report_engine();
+}
+
+void Jobs::work_on_flare(const Snapshot& job, const std::stop_token& stop) {
+    try {
+        draw_flare(job, stop);
     } catch (const std::exception& error) {
         QMetaObject::invokeMethod(
             this,
@@ -198,8 +244,9 @@ void Jobs::take_flare(const FlarePicture& picture, std::uint64_t serial) {
     if (picture.revision < document_.first_revision() || (picture.is_final && !is_newest)) {
         return;
     }
+    awaits_first_look_ = false;
     Q_EMIT flare_ready(picture);
-    if (picture.is_final && is_newest) {
+    if (picture.is_final && is_newest && flare_open_) {
         close(flare_open_);
     }
 }

@@ -1,5 +1,6 @@
 #include "widgets/main_window.h"
 
+#include <QActionGroup>
 #include <QApplication>
 #include <QCloseEvent>
 #include <QDesktopServices>
@@ -23,6 +24,7 @@
 #include "core/optics/paraxial.h"
 #include "core/units.h"
 #include "widgets/autosave.h"
+#include "widgets/certificate_job.h"
 #include "widgets/file_actions.h"
 #include "widgets/glass_folders.h"
 #include "widgets/models/ghost_table_model.h"
@@ -42,13 +44,15 @@
 
 namespace ghostlight {
 
-MainWindow::MainWindow(bool remembers) : remembers_(remembers), actions_(this) {
+MainWindow::MainWindow(bool remembers, MakeGlEngine make_gl)
+    : remembers_(remembers), actions_(this) {
     setObjectName("workbench");
     setAcceptDrops(true);
     setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks);
     use_glass_folders();
     build_panels();
-    jobs_ = std::make_unique<Jobs>(document_, selection_);
+    jobs_ = std::make_unique<Jobs>(document_, selection_, std::move(make_gl));
+    certificate_ = std::make_unique<CertificateJob>(document_, *jobs_);
     files_ = new FileActions(
         document_, actions_, *banner_, *status_,
         {[this] { return ghosts_->model().is_stale() ? nullptr : ghosts_->model().table(); },
@@ -59,6 +63,7 @@ MainWindow::MainWindow(bool remembers) : remembers_(remembers), actions_(this) {
     connect_document();
     connect_jobs();
     connect_actions();
+    connect_engines();
     connect_reports();
     resize(1720, 1000);
     arrange_panels();
@@ -73,6 +78,7 @@ MainWindow::MainWindow(bool remembers) : remembers_(remembers), actions_(this) {
 
 MainWindow::~MainWindow() {
     // Children may still signal while they go, after the members that listen are gone.
+    certificate_.reset();
     jobs_.reset();
     document_.disconnect(this);
     selection_.disconnect(this);
@@ -150,6 +156,8 @@ void MainWindow::build_menus() {
     actions_.fill(*view, {"view.reset", "-", "report.all", "report.matters", "report.copy",
                           "first_order.copy", "-", "view.aspheres", "view.comments", "-",
                           "view.light_theme"});
+    actions_.fill(*view->addMenu("&Draw Flares With"),
+                  {"engine.automatic", "engine.cpu", "engine.opengl"});
     actions_.add_menu(bar, "&Help", {"help.guide", "help.about"});
 }
 
@@ -271,6 +279,28 @@ void MainWindow::connect_actions() {
     actions_.on("help.guide", [this] { show_guide(); });
 }
 
+void MainWindow::set_engine(FlareEngine engine) {
+    actions_[QStringLiteral("engine.") + engine_name(engine)].setChecked(true);
+    jobs_->set_engine(engine);
+}
+
+void MainWindow::connect_engines() {
+    auto* one_of = new QActionGroup(this);
+    for (const FlareEngine engine : {FlareEngine::automatic, FlareEngine::cpu, FlareEngine::gl}) {
+        const QString id = QStringLiteral("engine.") + engine_name(engine);
+        one_of->addAction(&actions_[id]);
+        actions_.on(id, [this, engine] {
+            settings::set_flare_engine(engine);
+            set_engine(engine);
+        });
+    }
+    connect(jobs_.get(), &Jobs::engine_changed, status_, &StatusLine::show_engine);
+    connect(certificate_.get(), &CertificateJob::progressed, status_, &StatusLine::show_proving);
+    connect(certificate_.get(), &CertificateJob::certified, status_, &StatusLine::show_proof);
+    connect(certificate_.get(), &CertificateJob::withdrawn, status_, &StatusLine::clear_proof);
+    set_engine(settings::flare_engine());
+}
+
 void MainWindow::connect_reports() {
     connect(report_, &ImportReportPanel::surface_chosen, this, [this](int row) {
         prescription_dock_->show();
@@ -347,7 +377,7 @@ void MainWindow::show_scene() {
 void MainWindow::show_picture(const FlarePicture& picture) {
     banner_->clear("trace");
     if (begins_lens_) {
-        begins_lens_ = false;
+        begins_lens_ = picture.is_first_look;  // a better one sets the exposure again
         flare_->begin_lens();
     }
     picture_ = picture;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <memory>
 
 #include "app/cli/commands.h"
@@ -118,23 +119,37 @@ void run(const RenderOptions& options) {
         write_display(image, *exposure_ev, file, origin);
     }
 
+    const auto of_plan = [&](auto member) {
+        return image.plan.ghosts.empty() ? Cell() : Cell(std::invoke(member, image.plan));
+    };
     Report report;
     report.lens = lens_fields(loaded);
     report.request = {{"command", json_string("render")},
                       {"field_deg", json_value(request.light.field_deg)},
                       {"azimuth_deg", json_value(request.light.azimuth_deg)},
                       {"spectrum", json_string(name(request.spectrum))}};
-    report.table.columns = {"file",     "width_px",           "height_px",   "ghosts",  "rays",
-                            "flux_mm2", "flux_on_sensor_mm2", "exposure_ev", "time_ms", "layers",
-                            "method",   "estimated_error"};
+    report.table.columns = {"file",
+                            "width_px",
+                            "height_px",
+                            "ghosts",
+                            "rays",
+                            "flux_mm2",
+                            "flux_on_sensor_mm2",
+                            "exposure_ev",
+                            "time_ms",
+                            "layers",
+                            "method",
+                            "estimated_error",
+                            "left_out_share",
+                            "not_modelled_share"};
     report.table.rows = {
         {file, static_cast<std::int64_t>(image.width_px),
          static_cast<std::int64_t>(image.height_px), static_cast<std::int64_t>(image.ghosts),
          static_cast<std::int64_t>(image.rays), image.flux_mm2, image.flux_on_sensor_mm2,
          exposure_ev ? Cell(*exposure_ev) : Cell(), image.times.total_ms,
          layers.names.empty() ? Cell() : Cell(joined(layers.names, " ")),
-         std::string(method_name(request.method)),
-         image.plan.ghosts.empty() ? Cell() : Cell(image.plan.estimated_error())}};
+         std::string(method_name(request.method)), of_plan(&FlarePlan::estimated_error),
+         of_plan(&FlarePlan::left_out_share), of_plan(&FlarePlan::not_modelled)}};
     OutputOptions summary = options.output;
     summary.file.clear();
     write_report(report, summary);

@@ -23,7 +23,9 @@ inline std::filesystem::path tessar() { return bundled("tessar_brendel_100_f2.8.
 /// A shown window that keeps nothing, with a ghost table of one wavelength and a loose tolerance:
 /// these tests are about the window.
 struct OpenWindow {
-    explicit OpenWindow(const std::filesystem::path& lens = {}) {
+    explicit OpenWindow(const std::filesystem::path& lens = {},
+                        MakeGlEngine make_gl = offscreen_gl_engine)
+        : window(false, std::move(make_gl)) {
         window.resize(1400, 860);
         window.show();
         EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
@@ -40,7 +42,7 @@ struct OpenWindow {
     }
     bool settle() { return wait_until_settled(window, patience_ms); }
 
-    MainWindow window{false};
+    MainWindow window;
 };
 
 }  // namespace ghostlight::test
