@@ -77,6 +77,7 @@ class MainWindow : public QMainWindow {
     void connect_jobs();
     void connect_actions();
     void connect_engines();
+    void connect_absorption();
     void connect_reports();
     void offer_recovery();
     void show_scene();
