@@ -155,10 +155,12 @@ void Jobs::draw_flare(const Snapshot& job, const std::stop_token& stop) {
             return 0.0;
         }
         const double took_ms = image->times.total_ms;
+        last_plan_ = is_planned ? std::make_shared<const FlarePlan>(image->plan) : nullptr;
         show(std::move(*image), job, is_final, false);
         return took_ms;
     };
     if (job.first_look) {
+        last_plan_ = nullptr;
         if (auto image = render_paraxial(scene, request)) {
             show(std::move(*image), job, false, true);
         }
@@ -170,6 +172,8 @@ void Jobs::draw_flare(const Snapshot& job, const std::stop_token& stop) {
         rough.tolerance = coarse.tolerance;
         rough.width_px = coarse.width_px;
         rough.search = ProbeSearch::quick;
+        rough.nearby = last_plan_;
+        rough.turn = ++turn_;
         // Not interrupted: else a light that moves faster than pictures come would show none.
         const double took_ms = draw(rough, {}, false);
         if (took_ms > too_slow_ms) {

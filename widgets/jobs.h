@@ -98,7 +98,9 @@ class Jobs : public QObject {
     // These belong to the flare's thread.
     FlareEngines engines_;
     EngineState reported_;
-    int coarseness_ = 0;  ///< of coarse pictures
+    int coarseness_ = 0;                          ///< of coarse pictures
+    std::shared_ptr<const FlarePlan> last_plan_;  ///< where the next picture looks first
+    int turn_ = 0;
     /// The lens compiled for pictures, as long as it and its light's spectrum stay the same.
     struct CompiledLens {
         Prescription lens;

@@ -21,6 +21,7 @@ constexpr double strong_share = 0.9;
 /// With a plan nearby, one ghost of so many is searched for in all of the entrance all the same.
 constexpr std::size_t search_anew_every = 8;
 
+/// A plan for another count of ghosts is of another lens.
 const PlannedGhost* nearby_of(const FlareRequest& request, std::size_t g, const GhostPath& path) {
     if (!request.nearby || g >= request.nearby->ghosts.size()) return nullptr;
     const PlannedGhost& nearby = request.nearby->ghosts[g];

@@ -98,14 +98,24 @@ void StatusLine::show_plan(const FlarePlan& plan) {
     picture_->set_text(QStringLiteral("flare within *%1 %* · %2 of %3 ghosts drawn")
                            .arg(significant(100.0 * plan.estimated_error(), 2))
                            .arg(drawn)
-                           .arg(plan.ghosts.size()));
+                           .arg(plan.ghosts.size()) +
+                       (plan.left_out_mm2 > 0.0
+                            ? QStringLiteral(" · left out ≤ %1 %")
+                                  .arg(significant(100.0 * plan.left_out_share(), 2))
+                            : QString()));
     picture_->setToolTip(
-        QStringLiteral("Estimated error of the ghost layer, L1 over its light on the sensor "
-                       "(%1 % allowed).\n%2 ghosts land beside the sensor, through %3 no ray was "
-                       "found to pass; nothing else is left out.")
+        QStringLiteral(
+            "Estimated error of the ghost layer, L1 over its light on the sensor "
+            "(%1 % allowed).\n%2 ghosts land beside the sensor, through %3 no ray was "
+            "found to pass; %4 are left out, at most %5 % of the light.\nNot modelled: "
+            "light of four and more reflections, about %6 % of that of two (the surfaces "
+            "taken as plane).")
             .arg(significant(100.0 * plan.tolerance, 2))
             .arg(plan.count(GhostFate::off_sensor))
-            .arg(plan.count(GhostFate::nothing_passes)));
+            .arg(plan.count(GhostFate::nothing_passes))
+            .arg(plan.count(GhostFate::left_out))
+            .arg(significant(100.0 * plan.left_out_share(), 2),
+                 significant(100.0 * plan.not_modelled, 2)));
 }
 
 void StatusLine::show_engine(const EngineState& state) {
