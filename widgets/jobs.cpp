@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/flare/planned_flare.h"
+#include "core/flare/paraxial_flare.h"
 
 namespace ghostlight {
 
@@ -27,15 +27,22 @@ constexpr double quick_ms = 12.0;
 
 }  // namespace
 
-Jobs::Jobs(Document& document, Selection& selection, QObject* parent)
-    : QObject(parent), document_(document), selection_(selection) {
+Jobs::Jobs(Document& document, Selection& selection, MakeGlEngine make_gl, QObject* parent)
+    : QObject(parent),
+      document_(document),
+      selection_(selection),
+      engines_(std::move(make_gl)),
+      reported_(engines_.state()) {
+    qRegisterMetaType<EngineState>();
     flare_job_ = std::make_unique<NewestJob<Snapshot>>(
-        [this](const Snapshot& job, std::stop_token stop) { work_on_flare(job, stop); });
+        [this](const Snapshot& job, std::stop_token stop) { work_on_flare(job, stop); },
+        [this] { engines_.close(); });  // OpenGL's context belongs to that thread
     table_job_ = std::make_unique<NewestJob<Snapshot>>(
         [this](const Snapshot& job, std::stop_token stop) { work_on_table(job, stop); });
     table_delay_.setSingleShot(true);
     table_delay_.setInterval(table_delay_ms);
     connect(&table_delay_, &QTimer::timeout, this, &Jobs::request_table);
+    connect(&document_, &Document::opened, this, [this] { awaits_first_look_ = true; });
     connect(&document_, &Document::changed, this, &Jobs::follow_document);
     // Another highlight of the same picture: a coarse one between would only flicker.
     connect(&selection_, &Selection::ghosts_changed, this, [this] { request_flare(false); });
@@ -56,7 +63,16 @@ Jobs::Snapshot Jobs::snapshot(std::uint64_t serial) const {
             document_.revision(),
             serial,
             document_.changed_at(),
-            false};
+            false,
+            awaits_first_look_,
+            engine_};
+}
+
+void Jobs::set_engine(FlareEngine wish) {
+    if (wish != engine_) {
+        engine_ = wish;
+        request_flare(false);
+    }
 }
 
 Jobs::TableSubject Jobs::table_subject() const {
@@ -111,46 +127,96 @@ void Jobs::cancel_table() {
     }
 }
 
-void Jobs::work_on_flare(const Snapshot& job, const std::stop_token& stop) {
-    const DrawGhosts draw = [](const FlareScene& scene, const FlareRequest& request,
-                               std::stop_token token) {
-        return render_planned(scene, request, std::move(token));
+void Jobs::show(LayeredPicture::Result made, const Snapshot& job, bool is_final,
+                bool is_first_look) {
+    FlarePicture picture{std::move(made.sum), job.revision,          job.changed_at, is_final,
+                         is_first_look,       std::move(made.layers)};
+    QMetaObject::invokeMethod(
+        this, [this, picture, serial = job.serial] { take_flare(picture, serial); },
+        Qt::QueuedConnection);
+}
+
+void Jobs::report_engine() {
+    if (reported_ == engines_.state()) {
+        return;
+    }
+    reported_ = engines_.state();
+    QMetaObject::invokeMethod(
+        this, [this, state = reported_] { Q_EMIT engine_changed(state); }, Qt::QueuedConnection);
+}
+
+void Jobs::draw_flare(const Snapshot& job, const std::stop_token& stop) {
+    const Light& light = job.scene.light();
+    FlareRequest request;
+    request.light = light.direction;
+    request.spectrum = light.spectrum;
+    request.highlighted = job.highlighted;
+    request.tolerance = job.scene.flare_tolerance;
+    // Plans of the last picture help the next one of the same light.
+    const bool has_one_light = job.scene.lights.size() == 1;
+    const DrawGhosts draw_ghosts = [&](const FlareScene& scene, const FlareRequest& wanted,
+                                       std::stop_token token) {
+        return engines_.draw(scene, wanted, std::move(token));
     };
-    const auto wanted = [&](double tolerance, int width_px, bool is_final) {
-        FlareRequest request;
-        request.tolerance = tolerance;
-        request.search = is_final ? ProbeSearch::careful : ProbeSearch::quick;
-        request.width_px = width_px;
-        request.highlighted = job.highlighted;
-        return LayeredPicture::Wanted{job.lens, job.scene, std::move(request), is_final};
-    };
-    const auto render = [&](const LayeredPicture::Wanted& of, const std::stop_token& token) {
-        std::optional<LayeredPicture::Result> made = layered_.make(of, draw, token);
+    const auto draw = [&](const FlareRequest& wanted, const std::stop_token& token, bool is_final) {
+        auto made = layered_.make({job.lens, job.scene, wanted, is_final}, draw_ghosts, token);
         if (!made) {
             return 0.0;
         }
-        FlarePicture picture{std::move(made->sum), job.revision, job.changed_at, of.is_final,
-                             std::move(made->layers)};
-        QMetaObject::invokeMethod(
-            this, [this, picture, serial = job.serial] { take_flare(picture, serial); },
-            Qt::QueuedConnection);
-        return made->drawing_ms;
+        const double took_ms = made->drawing_ms;
+        last_plan_ = has_one_light ? std::make_shared<const FlarePlan>(made->sum->plan) : nullptr;
+        show(std::move(*made), job, is_final, false);
+        return took_ms;
     };
-    try {
-        // Not interrupted: else a light that moves faster than pictures come would show none.
+    if (drawn_with_ != job.engine) {
+        drawn_with_ = job.engine;
+        layered_.forget(LayerKind::ghosts);
+    }
+    if (job.first_look) {
+        last_plan_ = nullptr;
+        if (job.scene.layers.shows(LayerKind::ghosts)) {
+            const FlareScene& scene = layered_.compiled(job.lens, light.spectrum);
+            if (auto image = render_paraxial(scene, request)) {
+                show({std::make_shared<const FlareImage>(std::move(*image)), {}, 0.0}, job, false,
+                     true);
+            }
+        }
+    }
+    engines_.wish(job.engine);
+    if (job.coarse_first && !layered_.is_at_rest({job.lens, job.scene, request, true})) {
+        FlareRequest rough = request;
         const Coarse& coarse = coarse_pictures[static_cast<std::size_t>(coarseness_)];
-        const auto at_rest = wanted(job.scene.flare_tolerance, FlareRequest{}.width_px, true);
-        const double took_ms = job.coarse_first && !layered_.is_at_rest(at_rest)
-                                   ? render(wanted(coarse.tolerance, coarse.width_px, false), {})
-                                   : quick_ms;
+        rough.tolerance = coarse.tolerance;
+        rough.width_px = coarse.width_px;
+        rough.search = ProbeSearch::quick;
+        rough.nearby = last_plan_;
+        rough.turn = ++turn_;
+        // Not interrupted: else a light that moves faster than pictures come would show none.
+        const double took_ms = draw(rough, {}, false);
         if (took_ms > too_slow_ms) {
             coarseness_ = std::min(coarseness_ + 1, static_cast<int>(coarse_pictures.size()) - 1);
         } else if (took_ms < quick_ms) {
             coarseness_ = std::max(coarseness_ - 1, 0);
         }
-        if (!stop.stop_requested()) {
-            render(at_rest, stop);
+    }
+    if (!stop.stop_requested()) {
+        draw(request, stop, true);
+    }
+    // Nobody waits now. What OpenGL takes over, it draws at once: so it is seen to work.
+    if (job.scene.layers.shows(LayerKind::ghosts) && !stop.stop_requested()) {
+        const FlareScene& scene = layered_.compiled(job.lens, light.spectrum);
+        if (can_be_planned(scene.system(), request.light) &&
+            engines_.settle(scene, request, stop)) {
+            layered_.forget(LayerKind::ghosts);
+            draw(request, stop, true);
         }
+    }
+    report_engine();
+}
+
+void Jobs::work_on_flare(const Snapshot& job, const std::stop_token& stop) {
+    try {
+        draw_flare(job, stop);
     } catch (const std::exception& error) {
         QMetaObject::invokeMethod(
             this,
@@ -204,8 +270,9 @@ void Jobs::take_flare(const FlarePicture& picture, std::uint64_t serial) {
     if (picture.revision < document_.first_revision() || (picture.is_final && !is_newest)) {
         return;
     }
+    awaits_first_look_ = false;
     Q_EMIT flare_ready(picture);
-    if (picture.is_final && is_newest) {
+    if (picture.is_final && is_newest && flare_open_) {
         close(flare_open_);
     }
 }

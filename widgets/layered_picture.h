@@ -41,6 +41,9 @@ class LayeredPicture {
     /// coarse picture first.
     bool is_at_rest(const Wanted& wanted) const;
 
+    /// Draws a layer anew the next time, whatever was kept.
+    void forget(LayerKind kind) { kept_[static_cast<std::size_t>(kind)] = {}; }
+
     const FlareScene& compiled(const Prescription& lens, const Spectrum& spectrum) {
         return spectra_.of(lens, spectrum);
     }

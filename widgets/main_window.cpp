@@ -1,5 +1,6 @@
 #include "widgets/main_window.h"
 
+#include <QActionGroup>
 #include <QApplication>
 #include <QCloseEvent>
 #include <QDesktopServices>
@@ -23,6 +24,7 @@
 #include "core/optics/paraxial.h"
 #include "core/units.h"
 #include "widgets/autosave.h"
+#include "widgets/certificate_job.h"
 #include "widgets/file_actions.h"
 #include "widgets/glass_folders.h"
 #include "widgets/models/ghost_table_model.h"
@@ -44,13 +46,15 @@
 
 namespace ghostlight {
 
-MainWindow::MainWindow(bool remembers) : remembers_(remembers), actions_(this) {
+MainWindow::MainWindow(bool remembers, MakeGlEngine make_gl)
+    : remembers_(remembers), actions_(this) {
     setObjectName("workbench");
     setAcceptDrops(true);
     setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks);
     use_glass_folders();
     build_panels();
-    jobs_ = std::make_unique<Jobs>(document_, selection_);
+    jobs_ = std::make_unique<Jobs>(document_, selection_, std::move(make_gl));
+    certificate_ = std::make_unique<CertificateJob>(document_, *jobs_);
     files_ = new FileActions(
         document_, actions_, *banner_, *status_,
         {[this] { return ghosts_->model().is_stale() ? nullptr : ghosts_->model().table(); },
@@ -62,6 +66,7 @@ MainWindow::MainWindow(bool remembers) : remembers_(remembers), actions_(this) {
     connect_document();
     connect_jobs();
     connect_actions();
+    connect_engines();
     connect_reports();
     resize(1720, 1000);
     arrange_panels();
@@ -76,6 +81,7 @@ MainWindow::MainWindow(bool remembers) : remembers_(remembers), actions_(this) {
 
 MainWindow::~MainWindow() {
     // Children may still signal while they go, after the members that listen are gone.
+    certificate_.reset();
     jobs_.reset();
     document_.disconnect(this);
     selection_.disconnect(this);
@@ -143,9 +149,10 @@ void MainWindow::build_menus() {
     actions_.fill(*file, {"-", "file.save", "file.save_as", "-", "file.export_lens",
                           "file.export_ghost", "file.export_table", "file.export_exr",
                           "file.export_png", "-", "file.glass_folders", "-", "file.quit"});
-    actions_.add_menu(bar, "&Edit",
-                      {"edit.undo", "edit.redo", "-", "edit.insert", "edit.delete", "edit.move_up",
-                       "edit.move_down", "edit.make_stop", "-", "edit.mend_glass"});
+    actions_.add_menu(
+        bar, "&Edit",
+        {"edit.undo", "edit.redo", "-", "edit.insert", "edit.delete", "edit.move_up",
+         "edit.move_down", "edit.make_stop", "-", "edit.mend_glass", "edit.absorption"});
     actions_.add_menu(
         bar, "&Ghosts",
         {"ghosts.copy", "ghosts.clear", "-", "ghosts.all", "ghosts.above_3", "ghosts.above_2"});
@@ -157,6 +164,8 @@ void MainWindow::build_menus() {
     actions_.fill(*view, {"view.reset", "-", "report.all", "report.matters", "report.copy",
                           "first_order.copy", "-", "view.aspheres", "view.comments", "-",
                           "view.light_theme"});
+    actions_.fill(*view->addMenu("&Draw Flares With"),
+                  {"engine.automatic", "engine.cpu", "engine.opengl"});
     actions_.add_menu(bar, "&Help", {"help.guide", "help.about"});
 }
 
@@ -281,8 +290,54 @@ void MainWindow::connect_actions() {
         apply_theme(*qApp, theme);
         scene_update_.start();
     });
+    connect_absorption();
     actions_.on("help.about", [this] { show_about(); });
     actions_.on("help.guide", [this] { show_guide(); });
+}
+
+void MainWindow::set_engine(FlareEngine engine) {
+    actions_[QStringLiteral("engine.") + engine_name(engine)].setChecked(true);
+    jobs_->set_engine(engine);
+}
+
+void MainWindow::connect_engines() {
+    auto* one_of = new QActionGroup(this);
+    for (const FlareEngine engine : {FlareEngine::automatic, FlareEngine::cpu, FlareEngine::gl}) {
+        const QString id = QStringLiteral("engine.") + engine_name(engine);
+        one_of->addAction(&actions_[id]);
+        actions_.on(id, [this, engine] {
+            settings::set_flare_engine(engine);
+            set_engine(engine);
+        });
+    }
+    connect(jobs_.get(), &Jobs::engine_changed, status_, &StatusLine::show_engine);
+    connect(certificate_.get(), &CertificateJob::progressed, status_, &StatusLine::show_proving);
+    connect(certificate_.get(), &CertificateJob::certified, status_, &StatusLine::show_proof);
+    connect(certificate_.get(), &CertificateJob::withdrawn, status_, &StatusLine::clear_proof);
+    set_engine(settings::flare_engine());
+}
+
+void MainWindow::connect_absorption() {
+    QAction& absorb = actions_["edit.absorption"];
+    actions_.on("edit.absorption", [this, &absorb] {
+        Prescription lens = document_.lens();
+        lens.internal_transmittance = absorb.isChecked();
+        document_.edit_lens(lens,
+                            absorb.isChecked() ? "let glasses absorb" : "make glass lossless");
+    });
+    const auto follow = [this, &absorb] {
+        const Prescription& lens = document_.lens();
+        const bool is_known = std::ranges::any_of(lens.surfaces, [](const Surface& surface) {
+            return !surface.medium_after.transmittance.empty();
+        });
+        absorb.setChecked(lens.internal_transmittance);
+        absorb.setEnabled(is_known || lens.internal_transmittance);
+        absorb.setToolTip(is_known ? absorb.statusTip()
+                                   : "No glass of this lens has a table of internal transmittance: "
+                                     "open it with a catalogue (AGF) that has one");
+    };
+    connect(&document_, &Document::changed, this, follow);
+    follow();
 }
 
 void MainWindow::connect_reports() {
@@ -361,7 +416,7 @@ void MainWindow::show_scene() {
 void MainWindow::show_picture(const FlarePicture& picture) {
     banner_->clear("trace");
     if (begins_lens_) {
-        begins_lens_ = false;
+        begins_lens_ = picture.is_first_look;  // a better one sets the exposure again
         flare_->begin_lens();
     }
     picture_ = picture;
@@ -386,7 +441,7 @@ void MainWindow::show_failure(const QString& reason) {
     if (!show_unknown_glass()) {
         banner_->show_text("trace", reason);
     }
-    flare_->set_dimmed(true);
+    flare_->set_failed();
     ghosts_->set_failed();
 }
 

@@ -16,6 +16,7 @@ namespace ghostlight {
 
 class Autosave;
 class Banner;
+class CertificateJob;
 class FileActions;
 class FirstOrderPanel;
 class FlarePanel;
@@ -34,10 +35,12 @@ class MainWindow : public QMainWindow {
     Q_OBJECT
    public:
     /// `remembers` off: neither settings of the window nor copies of unsaved edits are kept.
-    explicit MainWindow(bool remembers = true);
+    explicit MainWindow(bool remembers = true, MakeGlEngine make_gl = offscreen_gl_engine);
     ~MainWindow() override;
 
     bool open(const std::filesystem::path& file);
+    /// What flares are drawn with, until it is chosen anew; not kept.
+    void set_engine(FlareEngine engine);
     /// All panels where they were at first, in proportion to the window.
     void arrange_panels();
     /// True when the views show the document as it is.
@@ -77,6 +80,8 @@ class MainWindow : public QMainWindow {
     void connect_document();
     void connect_jobs();
     void connect_actions();
+    void connect_engines();
+    void connect_absorption();
     void connect_reports();
     void offer_recovery();
     void show_scene();
@@ -96,6 +101,7 @@ class MainWindow : public QMainWindow {
     Selection selection_;
     Actions actions_;
     std::unique_ptr<Jobs> jobs_;
+    std::unique_ptr<CertificateJob> certificate_;
     std::unique_ptr<Autosave> autosave_;
 
     SceneBar* scene_bar_ = nullptr;

@@ -92,7 +92,7 @@ class Camera {
         FlareRequest request;
         request.light = light;
         request.width_px = width_;
-        return (*ghost_moments(*scene_, {GhostPath{}}, request))[0].flux();
+        return (*ghost_spots(*scene_, {GhostPath{}}, request))[0].flux();
     }
 
    private:

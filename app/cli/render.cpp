@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <memory>
 
 #include "app/cli/commands.h"
@@ -162,10 +163,7 @@ void run(const RenderOptions& options) {
     const Scene scene = scene_of(options.scene, loaded);
     request.light = scene.light().direction;
     request.spectrum = scene.light().spectrum;
-    const bool plain = scene.lights.size() == 1 && scene.light().size == LightSize{} &&
-                       scene.light().intensity_ev == 0.0 && scene.artistic.is_neutral() &&
-                       !(scene.veil.folded_share > 0.0);
-    if (per_ghost > 0 && !plain)
+    if (per_ghost > 0 && !has_plain_ghosts(scene))
         throw Error(
             "--per-ghost: its layers are of one point light, without folding and artistic changes");
     // With layers the same grids for all, so that the layers add up to the picture.
@@ -194,23 +192,37 @@ void run(const RenderOptions& options) {
     if (extension == ".exr" && drawn.kinds.size() > 1)
         for (const LayerKind kind : drawn.kinds) all_names.emplace_back(name(kind));
     all_names.insert(all_names.end(), layers.names.begin(), layers.names.end());
+    const auto of_plan = [&](auto member) {
+        return image.plan.ghosts.empty() ? Cell() : Cell(std::invoke(member, image.plan));
+    };
     Report report;
     report.lens = lens_fields(loaded);
     report.request = {{"command", json_string("render")},
                       {"field_deg", json_value(request.light.field_deg)},
                       {"azimuth_deg", json_value(request.light.azimuth_deg)},
                       {"spectrum", json_string(name(request.spectrum))}};
-    report.table.columns = {"file",     "width_px",           "height_px",   "ghosts",  "rays",
-                            "flux_mm2", "flux_on_sensor_mm2", "exposure_ev", "time_ms", "layers",
-                            "method",   "estimated_error"};
+    report.table.columns = {"file",
+                            "width_px",
+                            "height_px",
+                            "ghosts",
+                            "rays",
+                            "flux_mm2",
+                            "flux_on_sensor_mm2",
+                            "exposure_ev",
+                            "time_ms",
+                            "layers",
+                            "method",
+                            "estimated_error",
+                            "left_out_share",
+                            "not_modelled_share"};
     report.table.rows = {
         {file, static_cast<std::int64_t>(image.width_px),
          static_cast<std::int64_t>(image.height_px), static_cast<std::int64_t>(image.ghosts),
          static_cast<std::int64_t>(image.rays), image.flux_mm2, image.flux_on_sensor_mm2,
          exposure_ev ? Cell(*exposure_ev) : Cell(), image.times.total_ms,
          all_names.empty() ? Cell() : Cell(joined(all_names, " ")),
-         std::string(method_name(request.method)),
-         image.plan.ghosts.empty() ? Cell() : Cell(image.plan.estimated_error())}};
+         std::string(method_name(request.method)), of_plan(&FlarePlan::estimated_error),
+         of_plan(&FlarePlan::left_out_share), of_plan(&FlarePlan::not_modelled)}};
     OutputOptions summary = options.output;
     summary.file.clear();
     write_report(report, summary);

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "core/elapsed.h"
 #include "core/flare/draw_picture.h"
 #include "core/flare/picture_levels.h"
 #include "core/flare/planned_ghost.h"
+#include "core/flare/probe_all.h"
 #include "core/flare/spread_mesh.h"
 #include "core/parallel.h"
 #include "core/units.h"
@@ -48,13 +50,13 @@ struct Part {
     int patches = 1;      ///< across
 };
 
-double size_of(const GhostMoments& moments) { return std::sqrt(moments.xx_mm2 + moments.yy_mm2); }
+double size_of(const GhostSpot& moments) { return std::sqrt(moments.xx_mm2 + moments.yy_mm2); }
 
 /// How a ghost moves and changes from its moments at three fields `step_rad` apart.
-void set_shift(const std::array<const GhostMoments*, 3>& at, const LightDirection& light,
+void set_shift(const std::array<const GhostSpot*, 3>& at, const LightDirection& light,
                double step_rad, double radius_rad, double pitch_mm, Part& part) {
     const double azimuth = rad_from_deg(light.azimuth_deg);
-    const auto along = [&](const GhostMoments& m) {
+    const auto along = [&](const GhostSpot& m) {
         return m.x_mm * std::cos(azimuth) + m.y_mm * std::sin(azimuth);
     };
     const auto& [before, here, after] = at;
@@ -68,7 +70,7 @@ void set_shift(const std::array<const GhostMoments*, 3>& at, const LightDirectio
         std::abs(sine) > near_axis ? along(*here) / (sine * pitch_mm) : part.shift.along_px;
     const double reach = radius_rad / step_rad;
     const double smear_mm = radius_rad * std::abs(part.shift.along_px) * pitch_mm;
-    for (const GhostMoments* side : {before, after}) {
+    for (const GhostSpot* side : {before, after}) {
         const double flux = std::abs(side->flux() / here->flux() - 1.0);
         const double size =
             std::abs(size_of(*side) - size_of(*here)) / std::hypot(size_of(*here), smear_mm, 1e-9);
@@ -89,12 +91,12 @@ std::optional<std::vector<Part>> parts_of(const FlareScene& scene, const FlareRe
     for (const Part& part : parts) paths.push_back(part.path);
     const double step_deg =
         std::max(least_step_deg, deg_from_rad(pattern.radius_rad()) / std::numbers::sqrt2);
-    std::array<std::vector<GhostMoments>, 3> moments;
+    std::array<std::vector<GhostSpot>, 3> moments;
     for (const int side : {0, 1, 2}) {
         FlareRequest turned = request;
         turned.light.field_deg += (side - 1) * step_deg;
         if (std::abs(turned.light.field_deg) >= 90.0) turned.light = request.light;
-        auto found = ghost_moments(scene, paths, turned, stop);
+        auto found = ghost_spots(scene, paths, turned, stop);
         if (!found) return std::nullopt;
         moments[idx(side)] = std::move(*found);
     }
@@ -187,14 +189,16 @@ bool draw_patch(const FlareScene& scene, const FlareRequest& request, const Patt
         }
     }
     for (std::size_t g = 0; g < parts.size(); ++g) {
-        PlannedGhost planned = std::move((*probed)[g].planned);
+        const PlannedGhost& planned = (*probed)[g].planned;
         const double share = patch.share * parts[g]->look.gain[3];
         image.rays += planned.rays;
         image.flux_mm2 += share * planned.whole_flux_mm2;
         image.plan.flux_mm2 += share * planned.flux_mm2;
         image.plan.error_mm2 += share * planned.error_mm2;
-        image.plan.ghosts.push_back(std::move(planned));
     }
+    FlarePlan plan = plan_of(scene, one, *probed);
+    image.plan.not_modelled = plan.not_modelled;
+    std::ranges::move(plan.ghosts, std::back_inserter(image.plan.ghosts));
     return true;
 }
 
@@ -229,19 +233,19 @@ int padding_px(const LightPattern& pattern, const std::vector<Part>& parts,
 
 }  // namespace
 
-std::optional<std::vector<GhostMoments>> ghost_moments(const FlareScene& scene,
-                                                       const std::vector<GhostPath>& paths,
-                                                       const FlareRequest& request,
-                                                       std::stop_token stop) {
+std::optional<std::vector<GhostSpot>> ghost_spots(const FlareScene& scene,
+                                                  const std::vector<GhostPath>& paths,
+                                                  const FlareRequest& request,
+                                                  std::stop_token stop) {
     const OpticalSystem& system = scene.system();
     const PixelFrame frame =
         pixel_frame(system.sensor_width_mm, system.sensor_height_mm, request.width_px);
     const GhostPlanner planner(scene, request.light, frame, request.search);
-    std::vector<GhostMoments> moments(paths.size());
+    std::vector<GhostSpot> moments(paths.size());
     if (!parallel_for(paths.size(), request.threads, std::move(stop), [&](std::size_t g) {
             const ProbedGhost probed = planner.probe(paths[g]);
             if (probed.planned.fate != GhostFate::nothing_passes)
-                moments[g] = moments_of(planner.landed(probed), frame);
+                moments[g] = spot_of(planner.landed(probed), frame);
         }))
         return std::nullopt;
     return moments;

@@ -7,17 +7,17 @@
 #include "core/flare/artistic.h"
 #include "core/flare/flare_image.h"
 #include "core/flare/flare_scene.h"
-#include "core/flare/ghost_moments.h"
+#include "core/flare/ghost_spot.h"
 #include "core/flare/light_pattern.h"
 
 namespace ghostlight {
 
 /// Moments of each ghost's light, from the first look of the planned picture: ghosts in the order
 /// of `paths`. Nothing when stopped.
-std::optional<std::vector<GhostMoments>> ghost_moments(const FlareScene& scene,
-                                                       const std::vector<GhostPath>& paths,
-                                                       const FlareRequest& request,
-                                                       std::stop_token stop = {});
+std::optional<std::vector<GhostSpot>> ghost_spots(const FlareScene& scene,
+                                                  const std::vector<GhostPath>& paths,
+                                                  const FlareRequest& request,
+                                                  std::stop_token stop = {});
 
 /// The planned picture of a light of some extent, and of ghosts that an artist has changed.
 ///

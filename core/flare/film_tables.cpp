@@ -25,6 +25,8 @@ FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threa
       surfaces_(turning_count(systems.front())) {
     const std::size_t table_size = static_cast<std::size_t>(nodes) * stride_;
     values_.assign(surfaces_ * tables_per_surface * table_size, 0.0F);
+    most_.assign(surfaces_ * 2 * static_cast<std::size_t>(nodes), 0.0F);
+    keep_absorption(systems);
     invisible_.assign(surfaces_, true);
     for (std::size_t s = 0; s < surfaces_; ++s)
         for (const OpticalSystem& system : systems)
@@ -38,7 +40,8 @@ FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threa
         const std::size_t surface = task / 2;
         const bool forward = task % 2 == 0;
         if (invisible_[surface]) return;
-        std::vector<float> r(padded_nodes), t(padded_nodes);
+        std::vector<float> r(padded_nodes), t(padded_nodes), most(padded_nodes);
+        float* most_here = &most_[task * static_cast<std::size_t>(nodes)];
         std::vector<LayerAt<float>> layers;
         for (std::size_t w = 0; w < systems.size(); ++w) {
             const SurfaceAt& at = surface_at(systems[w], surface);
@@ -61,7 +64,8 @@ FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threa
                    .count = padded_nodes,
                    .cosines = cosines.data(),
                    .reflectance = r.data(),
-                   .transmittance = t.data()});
+                   .transmittance = t.data(),
+                   .most_reflected = most.data()});
             if (model == CoatingModel::hullin_2011) {
                 std::ranges::fill(t, 1.0F);
                 for (std::size_t i = 0; i < padded_nodes && film.layers.size() == 1; ++i)
@@ -69,24 +73,72 @@ FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threa
                         hullin_2011_reflectance(static_cast<double>(cosines[i]), film.wavelength_nm,
                                                 film.layers.front().thickness_nm, film.n_in,
                                                 film.layers.front().n, film.n_out));
+                // Its mean of s and p is all it gives; the larger is at most twice that.
+                std::ranges::transform(r, most.begin(), [](float mean) { return 2.0F * mean; });
             }
             if (at.uniform_reflectance) {
                 std::ranges::fill(r, static_cast<float>(*at.uniform_reflectance));
                 std::ranges::fill(t, static_cast<float>(1.0 - *at.uniform_reflectance));
+                most = r;
             }
             for (const bool reflects : {false, true}) {
                 float* to = values_.data() + (table(surface, forward, reflects) - values_.data());
                 for (std::size_t i = 0; i < static_cast<std::size_t>(nodes); ++i)
                     to[i * stride_ + w] = reflects ? r[i] : t[i];
             }
+            for (std::size_t i = 0; i < static_cast<std::size_t>(nodes); ++i)
+                most_here[i] = std::max(most_here[i], most[i]);
         }
+        for (std::size_t i = static_cast<std::size_t>(nodes) - 1; i-- > 0;)
+            most_here[i] = std::max(most_here[i], most_here[i + 1]);
     });
+}
+
+void FilmTables::keep_absorption(const std::vector<OpticalSystem>& systems) {
+    std::vector<float> per_mm(surfaces_ * 2 * stride_, 0.0F);
+    bool any = false;
+    for (std::size_t s = 0; s < surfaces_; ++s)
+        for (std::size_t w = 0; w < systems.size(); ++w) {
+            const SurfaceAt& at = surface_at(systems[w], s);
+            per_mm[(s * 2) * stride_ + w] = static_cast<float>(at.absorption_before_per_mm);
+            per_mm[(s * 2 + 1) * stride_ + w] = static_cast<float>(at.absorption_after_per_mm);
+            any = any || at.absorption_before_per_mm > 0.0 || at.absorption_after_per_mm > 0.0;
+        }
+    if (any) absorption_per_mm_ = std::move(per_mm);
+}
+
+void FilmTables::absorb(const TracePath<float>& path, const Bundle<float>& rays,
+                        std::vector<float>& weights) const {
+    std::vector<const float*> per_mm;
+    for (const TraceStep<float>& step : path.steps) {
+        const auto side = static_cast<std::size_t>(step.surface) * 2 + (step.sense > 0.0F ? 0 : 1);
+        per_mm.push_back(absorption_per_mm_.data() + side * stride_);
+    }
+    // What follows the last row; a sensor that reflects is no row.
+    const auto last = static_cast<std::size_t>(path.steps.back().surface);
+    per_mm.push_back(absorption_per_mm_.data() + (last * 2 + 1) * stride_);
+    std::vector<float> depth(stride_);
+    for (std::size_t ray = 0; ray < rays.size(); ++ray) {
+        std::ranges::fill(depth, 0.0F);
+        for (std::size_t step = 0; step < per_mm.size(); ++step) {
+            const float length_mm = rays.lengths_mm[step * rays.cosine_stride + ray];
+            for (std::size_t w = 0; w < stride_; ++w) depth[w] += per_mm[step][w] * length_mm;
+        }
+        for (std::size_t w = 0; w < stride_; ++w)
+            weights[ray * stride_ + w] *= passed_share(depth[w]);
+    }
 }
 
 const float* FilmTables::table(std::size_t surface, bool forward, bool reflects) const {
     const std::size_t which =
         surface * tables_per_surface + (forward ? 0U : 2U) + (reflects ? 1U : 0U);
     return values_.data() + which * static_cast<std::size_t>(nodes) * stride_;
+}
+
+double FilmTables::most_reflected(std::size_t surface, bool forward, double least_cosine) const {
+    const auto node = static_cast<std::size_t>(std::clamp(least_cosine, 0.0, 1.0) * (nodes - 1));
+    return static_cast<double>(
+        most_[(surface * 2 + (forward ? 0U : 1U)) * static_cast<std::size_t>(nodes) + node]);
 }
 
 void FilmTables::weights(const TracePath<float>& path, const Bundle<float>& rays,
@@ -108,6 +160,8 @@ void FilmTables::weights(const TracePath<float>& path, const Bundle<float>& rays
                                    .wavelengths = stride_,
                                    .weights = weights.data()};
     GHOSTLIGHT_DISPATCH(spectral_weights, view);
+    if (path.absorbs && !absorption_per_mm_.empty() && !rays.lengths_mm.empty())
+        absorb(path, rays, weights);
 }
 
 }  // namespace ghostlight

@@ -42,6 +42,13 @@ Scene default_scene(const Prescription& lens) {
     return scene;
 }
 
+bool has_plain_ghosts(const Scene& scene) {
+    const Light& light = scene.light();
+    const bool folds = scene.veil.folded_share > 0.0 && scene.layers.shows(LayerKind::veil);
+    return scene.lights.size() == 1 && light.on && light.size == LightSize{} &&
+           light.intensity_ev == 0.0 && scene.artistic.is_neutral() && !folds;
+}
+
 double drawing_wavelength_nm(const Scene& scene) {
     return line_nm(scene.light().spectrum).value_or(d_line_nm);
 }

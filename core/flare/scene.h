@@ -48,6 +48,10 @@ struct Scene {
 };
 inline constexpr std::size_t most_lights = 32;
 
+/// Whether the ghosts are those of one point light of 0 EV, all of them drawn and as they are: a
+/// picture whose plan says all about it.
+bool has_plain_ghosts(const Scene& scene);
+
 /// A light inside the picture, off centre.
 Scene default_scene(const Prescription& lens);
 

@@ -23,7 +23,7 @@ constexpr int sampled_patches = 5;
 /// The ghosts of one light that are drawn, and the moments of the others.
 struct Folded {
     std::vector<GhostPath> drawn;
-    std::vector<GhostMoments> moments;
+    std::vector<GhostSpot> moments;
     bool is_any() const { return !moments.empty(); }
 };
 
@@ -32,7 +32,7 @@ std::optional<Folded> fold(const SceneView& view, const FlareScene& compiled,
     Folded folded;
     const Scene& scene = view.scene;
     if (!(scene.veil.folded_share > 0.0) || !scene.layers.shows(LayerKind::veil)) return folded;
-    const auto moments = ghost_moments(compiled, compiled.ghosts, request, stop);
+    const auto moments = ghost_spots(compiled, compiled.ghosts, request, stop);
     if (!moments) return std::nullopt;
     const auto chosen = foldable(*moments, scene.veil.folded_share, view.lens.sensor.width_mm,
                                  view.lens.sensor.height_mm);
@@ -45,7 +45,7 @@ std::optional<Folded> fold(const SceneView& view, const FlareScene& compiled,
         }
         const GhostLook look = look_of(scene.artistic, compiled.ghosts[g]);
         if (!look.on) continue;
-        GhostMoments ghost = (*moments)[g];
+        GhostSpot ghost = (*moments)[g];
         for (std::size_t c = 0; c < 4; ++c) ghost.flux_mm2[c] *= look.gain[c];
         ghost.x_mm += look.offset_x_mm;
         ghost.y_mm += look.offset_y_mm;
@@ -193,7 +193,7 @@ std::optional<FlareImage> ghosts_layer(const SceneView& view, const FlareRequest
     return sum ? std::move(sum) : black_image(view.lens.sensor, request.width_px);
 }
 
-std::vector<std::size_t> foldable(std::span<const GhostMoments> ghosts, double share,
+std::vector<std::size_t> foldable(std::span<const GhostSpot> ghosts, double share,
                                   double sensor_width_mm, double sensor_height_mm) {
     struct Candidate {
         std::size_t index;
@@ -202,7 +202,7 @@ std::vector<std::size_t> foldable(std::span<const GhostMoments> ghosts, double s
     std::vector<Candidate> candidates;
     double all = 0.0;
     for (std::size_t g = 0; g < ghosts.size(); ++g) {
-        const GhostMoments& ghost = ghosts[g];
+        const GhostSpot& ghost = ghosts[g];
         if (!reaches_sensor(ghost, sensor_width_mm, sensor_height_mm)) continue;
         all += ghost.flux();
         const auto [narrow, broad] = ghost.sigmas_mm();
@@ -225,25 +225,25 @@ std::optional<FlareImage> veil_layer(const SceneView& view, const FlareRequest& 
     FlareImage image = black_image(view.lens.sensor, request.width_px);
     const Scene& scene = view.scene;
     const Sensor& sensor = view.lens.sensor;
-    std::vector<GhostMoments> all;
+    std::vector<GhostSpot> all;
     for (const Light& light : scene.lights) {
         if (!light.on) continue;
         const FlareScene& compiled = view.spectra.of(view.lens, light.spectrum);
         const FlareRequest one = of_light(request, light);
         const std::array<double, 4> gain = gain_of(scene, light);
-        const auto brightened = [&](GhostMoments ghost) {
+        const auto brightened = [&](GhostSpot ghost) {
             for (std::size_t c = 0; c < 4; ++c) ghost.flux_mm2[c] *= gain[c];
             return ghost;
         };
         const auto folded = fold(view, compiled, one, stop);
         if (!folded) return std::nullopt;
-        for (const GhostMoments& ghost : folded->moments)
+        for (const GhostSpot& ghost : folded->moments)
             if (reaches_sensor(ghost, sensor.width_mm, sensor.height_mm))
                 all.push_back(brightened(ghost));
         if (scene.veil.spread.share > 0.0) {
-            const auto direct = ghost_moments(compiled, {GhostPath{}}, one, stop);
+            const auto direct = ghost_spots(compiled, {GhostPath{}}, one, stop);
             if (!direct) return std::nullopt;
-            const GhostMoments spot = brightened(direct->front());
+            const GhostSpot spot = brightened(direct->front());
             const double efl_mm = first_order(compiled.system()).efl_mm;
             add_glare_spread(scene.veil.spread, spot.flux_mm2, spot.x_mm, spot.y_mm, efl_mm,
                              request.threads, image);
@@ -254,7 +254,7 @@ std::optional<FlareImage> veil_layer(const SceneView& view, const FlareRequest& 
         const VeilSize size = veil_size(all, sensor.width_mm, sensor.height_mm);
         VeilSeries series(size.period_mm, size.orders);
         double narrowest_mm = size.period_mm;
-        for (const GhostMoments& ghost : all) {
+        for (const GhostSpot& ghost : all) {
             series.add(ghost, scene.veil.kernel);
             image.flux_mm2 += ghost.flux();
             narrowest_mm = std::min(narrowest_mm, ghost.sigmas_mm()[0]);

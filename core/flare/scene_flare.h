@@ -59,7 +59,7 @@ std::optional<FlareImage> veil_layer(const SceneView& view, const FlareRequest& 
 /// Which ghosts may be folded into the veil: those of the least irradiance whose kernels are broad
 /// enough, together with at most `share` of the light of all that reach the sensor. Indices into
 /// `ghosts`.
-std::vector<std::size_t> foldable(std::span<const GhostMoments> ghosts, double share,
+std::vector<std::size_t> foldable(std::span<const GhostSpot> ghosts, double share,
                                   double sensor_width_mm, double sensor_height_mm);
 
 /// A picture of a sensor without light.

@@ -33,7 +33,7 @@ VeilSeries::VeilSeries(double period_mm, int orders)
       orders_(orders),
       coefficients_(idx((orders + 1) * (orders + 1) * 16), 0.0) {}
 
-void VeilSeries::add(const GhostMoments& ghost, VeilKernel kernel) {
+void VeilSeries::add(const GhostSpot& ghost, VeilKernel kernel) {
     const double omega = 2.0 * std::numbers::pi / period_mm_;
     const auto share = [&](double square) {
         square = std::max(0.0, square);
@@ -123,17 +123,17 @@ std::vector<float> VeilSeries::grid(std::span<const double> x_mm,
     return values;
 }
 
-bool reaches_sensor(const GhostMoments& ghost, double sensor_width_mm, double sensor_height_mm) {
+bool reaches_sensor(const GhostSpot& ghost, double sensor_width_mm, double sensor_height_mm) {
     return ghost.flux() > 0.0 &&
            std::abs(ghost.x_mm) < 0.5 * sensor_width_mm + reach_sigmas * std::sqrt(ghost.xx_mm2) &&
            std::abs(ghost.y_mm) < 0.5 * sensor_height_mm + reach_sigmas * std::sqrt(ghost.yy_mm2);
 }
 
-VeilSize veil_size(std::span<const GhostMoments> ghosts, double sensor_width_mm,
+VeilSize veil_size(std::span<const GhostSpot> ghosts, double sensor_width_mm,
                    double sensor_height_mm) {
     VeilSize size{std::max(sensor_width_mm, sensor_height_mm), 0};
     double narrowest_mm = size.period_mm;
-    for (const GhostMoments& ghost : ghosts) {
+    for (const GhostSpot& ghost : ghosts) {
         size.period_mm = std::max(
             {size.period_mm,
              0.5 * sensor_width_mm + std::abs(ghost.x_mm) + reach_sigmas * std::sqrt(ghost.xx_mm2),

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/flare/ghost_mesh.h"
-#include "core/flare/ghost_moments.h"
+#include "core/flare/ghost_spot.h"
 
 namespace ghostlight {
 
@@ -24,7 +24,7 @@ enum class VeilKernel {
 class VeilSeries {
    public:
     VeilSeries(double period_mm, int orders);
-    void add(const GhostMoments& ghost, VeilKernel kernel);
+    void add(const GhostSpot& ghost, VeilKernel kernel);
 
     double period_mm() const { return period_mm_; }
     int orders() const { return orders_; }
@@ -47,11 +47,11 @@ struct VeilSize {
     int orders = 0;
 };
 inline constexpr int most_veil_orders = 96;
-VeilSize veil_size(std::span<const GhostMoments> ghosts, double sensor_width_mm,
+VeilSize veil_size(std::span<const GhostSpot> ghosts, double sensor_width_mm,
                    double sensor_height_mm);
 
 /// Whether a ghost's kernel reaches the sensor at all.
-bool reaches_sensor(const GhostMoments& ghost, double sensor_width_mm, double sensor_height_mm);
+bool reaches_sensor(const GhostSpot& ghost, double sensor_width_mm, double sensor_height_mm);
 
 /// The series as a picture: evaluated at 1/2^k of the size, as its narrowest ghost allows, and
 /// interpolated. 4 values a pixel.

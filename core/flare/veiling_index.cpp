@@ -62,10 +62,10 @@ std::optional<VeilingIndex> veiling_index(const Prescription& lens,
     picture.tolerance = tolerance;
     picture.spectrum = request.spectrum;
     picture.threads = request.threads;
-    const auto direct = [&](double field_deg) -> std::optional<GhostMoments> {
+    const auto direct = [&](double field_deg) -> std::optional<GhostSpot> {
         FlareRequest one = picture;
         one.light = {field_deg, 90.0};
-        const auto moments = ghost_moments(scene, {GhostPath{}}, one, stop);
+        const auto moments = ghost_spots(scene, {GhostPath{}}, one, stop);
         if (!moments) return std::nullopt;
         return moments->front();
     };

@@ -19,14 +19,14 @@ constexpr int width_px = 1280, height_px = 720;
 constexpr double width_mm = 36.0, height_mm = 36.0 * height_px / width_px;
 constexpr int repetitions = 15;
 
-std::vector<GhostMoments> made(int count) {
+std::vector<GhostSpot> made(int count) {
     std::mt19937_64 random(1);
     const auto between = [&](double low, double high) {
         return low + (high - low) * static_cast<double>(random() >> 11) * 0x1.0p-53;
     };
-    std::vector<GhostMoments> ghosts;
+    std::vector<GhostSpot> ghosts;
     for (int k = 0; k < count; ++k) {
-        GhostMoments ghost;
+        GhostSpot ghost;
         const double flux = between(0.0, 1.0);
         ghost.flux_mm2 = {flux, 0.9 * flux, 0.8 * flux, flux};
         ghost.x_mm = between(-16.0, 16.0);
@@ -51,10 +51,10 @@ double least_ms(Work work) {
 }
 
 /// Every ghost's Gaussian at every point of a grid, in four channels.
-std::vector<float> direct(const std::vector<GhostMoments>& ghosts, const std::vector<double>& x_mm,
+std::vector<float> direct(const std::vector<GhostSpot>& ghosts, const std::vector<double>& x_mm,
                           const std::vector<double>& y_mm) {
     std::vector<float> values(x_mm.size() * y_mm.size() * 4, 0.0F);
-    for (const GhostMoments& ghost : ghosts) {
+    for (const GhostSpot& ghost : ghosts) {
         const double det = ghost.xx_mm2 * ghost.yy_mm2 - ghost.xy_mm2 * ghost.xy_mm2;
         const auto a = static_cast<float>(-0.5 * ghost.yy_mm2 / det);
         const auto b = static_cast<float>(ghost.xy_mm2 / det);
@@ -96,7 +96,7 @@ void print() {
         VeilSeries series(size.period_mm, size.orders);
         const double add_ms = least_ms([&] {
             series = VeilSeries(size.period_mm, size.orders);
-            for (const GhostMoments& ghost : ghosts) series.add(ghost, VeilKernel::gaussian);
+            for (const GhostSpot& ghost : ghosts) series.add(ghost, VeilKernel::gaussian);
         });
         std::vector<float> keep;
         evaluate_ms = least_ms([&] { keep = series.grid(x_mm, y_mm); });

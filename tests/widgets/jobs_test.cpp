@@ -92,6 +92,24 @@ TEST_F(JobsTest, CoarseThenFineThenTheTable) {
     EXPECT_EQ(tables.front()->light, document.scene().light().direction);
 }
 
+TEST_F(JobsTest, ALensJustOpenedIsSeenToFirstOrderAtOnce) {
+    ASSERT_FALSE(document.open(test::tessar()));
+    ASSERT_TRUE(settle());
+    ASSERT_GE(pictures.size(), 3U);
+    EXPECT_TRUE(pictures.front().is_first_look);
+    EXPECT_FALSE(pictures.front().is_final);
+    EXPECT_GT(pictures.front().image->flux_on_sensor_mm2, 0.0);
+    for (std::size_t k = 1; k < pictures.size(); ++k) {
+        EXPECT_FALSE(pictures[k].is_first_look);
+    }
+    pictures.clear();
+    Scene scene = document.scene();
+    scene.light().direction.field_deg += 1.0;
+    document.edit_scene(scene, "move the light", "light");
+    ASSERT_TRUE(settle());
+    EXPECT_FALSE(pictures.front().is_first_look) << "only of a lens just opened";
+}
+
 TEST_F(JobsTest, ManyChangesEndInOnePictureAndOneTable) {
     open();
     for (int k = 0; k < 30; ++k) {

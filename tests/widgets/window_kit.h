@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/io/lens_file.h"
+#include "tests/support/test_paths.h"
 #include "widgets/main_window.h"
 #include "widgets/snapshot.h"
 
@@ -14,16 +15,16 @@ namespace ghostlight::test {
 /// The largest bundled lens on a busy machine.
 inline constexpr int patience_ms = 240'000;
 
-inline std::filesystem::path bundled(const std::string& file) {
-    return std::filesystem::path(GHOSTLIGHT_LENS_DIR) / file;
-}
+inline std::filesystem::path bundled(const std::string& file) { return lens_folder() / file; }
 
 inline std::filesystem::path tessar() { return bundled("tessar_brendel_100_f2.8.json"); }
 
 /// A shown window that keeps nothing, with a ghost table of one wavelength and a loose tolerance:
 /// these tests are about the window.
 struct OpenWindow {
-    explicit OpenWindow(const std::filesystem::path& lens = {}) {
+    explicit OpenWindow(const std::filesystem::path& lens = {},
+                        MakeGlEngine make_gl = offscreen_gl_engine)
+        : window(false, std::move(make_gl)) {
         window.resize(1400, 860);
         window.show();
         EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
@@ -40,7 +41,7 @@ struct OpenWindow {
     }
     bool settle() { return wait_until_settled(window, patience_ms); }
 
-    MainWindow window{false};
+    MainWindow window;
 };
 
 }  // namespace ghostlight::test

@@ -143,10 +143,10 @@ TEST(ExtendedFlare, AnArtistsGainTintAndSwitch) {
 TEST(ExtendedFlare, AnOffsetMovesAGhost) {
     const FlareScene scene = flare_scene(closed("cooke_triplet_50_f5"), Monochromatic{});
     FlareRequest request = request_at(2.0, 90.0);
-    const auto moments = ghost_moments(scene, scene.ghosts, request);
+    const auto moments = ghost_spots(scene, scene.ghosts, request);
     std::size_t inner = scene.ghosts.size();  // one that lies well inside
     for (std::size_t g = 0; g < moments->size(); ++g) {
-        const GhostMoments& m = (*moments)[g];
+        const GhostSpot& m = (*moments)[g];
         if (m.flux() > 0.0 && std::abs(m.y_mm) < 5.0 && m.sigmas_mm()[1] < 1.5) inner = g;
     }
     ASSERT_LT(inner, scene.ghosts.size());
@@ -173,13 +173,13 @@ TEST(ExtendedFlare, AnOffsetMovesAGhost) {
     EXPECT_NEAR(after[1] - before[1], -1.25, 0.06);
 }
 
-TEST(GhostMoments, AreThoseOfThePicture) {
+TEST(GhostSpot, AreThoseOfThePicture) {
     const FlareScene scene = flare_scene(closed("cooke_triplet_50_f5"), Monochromatic{});
     FlareRequest request = request_at(3.0, 40.0, 640);
-    const auto moments = ghost_moments(scene, scene.ghosts, request);
+    const auto moments = ghost_spots(scene, scene.ghosts, request);
     int compared = 0;
     for (std::size_t g = 0; g < scene.ghosts.size(); ++g) {
-        const GhostMoments& m = (*moments)[g];
+        const GhostSpot& m = (*moments)[g];
         // Wholly on the sensor.
         const double reach = 3.0 * m.sigmas_mm()[1];
         if (!(m.flux() > 0.0) || std::abs(m.x_mm) + reach > 18.0 || std::abs(m.y_mm) + reach > 12.0)

@@ -152,7 +152,7 @@ TEST_F(SceneFlare, OtherEnginesTakeSizesAndArtisticChangesToo) {
 
 TEST(Foldable, TakesTheFaintAndBroadUpToItsShare) {
     const auto spot = [](double flux, double sigma) {
-        GhostMoments m;
+        GhostSpot m;
         m.flux_mm2 = {flux, flux, flux, flux};
         m.xx_mm2 = m.yy_mm2 = sigma * sigma;
         return m;

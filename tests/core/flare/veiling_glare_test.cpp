@@ -14,8 +14,8 @@ namespace {
 
 constexpr double width_mm = 36.0, height_mm = 24.0;
 
-GhostMoments spot(double x, double y, double sx, double sy, double correlation, double flux) {
-    GhostMoments made;
+GhostSpot spot(double x, double y, double sx, double sy, double correlation, double flux) {
+    GhostSpot made;
     made.flux_mm2 = {0.9 * flux, flux, 1.2 * flux, flux};
     made.x_mm = x;
     made.y_mm = y;
@@ -26,7 +26,7 @@ GhostMoments spot(double x, double y, double sx, double sy, double correlation, 
 }
 
 /// The normal distribution itself.
-double gaussian(const GhostMoments& m, double x, double y) {
+double gaussian(const GhostSpot& m, double x, double y) {
     const double det = m.xx_mm2 * m.yy_mm2 - m.xy_mm2 * m.xy_mm2;
     const double dx = x - m.x_mm, dy = y - m.y_mm;
     const double square =
@@ -34,15 +34,15 @@ double gaussian(const GhostMoments& m, double x, double y) {
     return m.flux() * std::exp(-0.5 * square) / (2.0 * std::numbers::pi * std::sqrt(det));
 }
 
-VeilSeries series_of(const std::vector<GhostMoments>& ghosts, VeilKernel kernel, int orders = 0) {
+VeilSeries series_of(const std::vector<GhostSpot>& ghosts, VeilKernel kernel, int orders = 0) {
     const VeilSize size = veil_size(ghosts, width_mm, height_mm);
     VeilSeries series(size.period_mm, orders > 0 ? orders : size.orders);
-    for (const GhostMoments& ghost : ghosts) series.add(ghost, kernel);
+    for (const GhostSpot& ghost : ghosts) series.add(ghost, kernel);
     return series;
 }
 
 /// Largest difference from the closed form over the sensor, over the peak.
-double worst(const VeilSeries& series, const GhostMoments& ghost) {
+double worst(const VeilSeries& series, const GhostSpot& ghost) {
     double most = 0.0;
     for (double y = -0.5 * height_mm; y <= 0.5 * height_mm; y += 1.5)
         for (double x = -0.5 * width_mm; x <= 0.5 * width_mm; x += 1.5)
@@ -53,14 +53,14 @@ double worst(const VeilSeries& series, const GhostMoments& ghost) {
 TEST(VeilingGlare, TheSeriesOfOneGaussianIsTheGaussian) {
     // What the orders and the period leave out is below 4e-5 of the peak each way.
     constexpr double tolerance = 2e-4;
-    for (const GhostMoments& ghost : {spot(0, 0, 3, 3, 0, 1), spot(5, -7, 2, 4, 0, 2),
-                                      spot(-9, 3, 3, 2, 0.6, 1), spot(20, 10, 8, 5, -0.8, 5)})
+    for (const GhostSpot& ghost : {spot(0, 0, 3, 3, 0, 1), spot(5, -7, 2, 4, 0, 2),
+                                   spot(-9, 3, 3, 2, 0.6, 1), spot(20, 10, 8, 5, -0.8, 5)})
         EXPECT_LT(worst(series_of({ghost}, VeilKernel::gaussian), ghost), tolerance);
 }
 
 TEST(VeilingGlare, ErrorFallsWithTheOrdersAsTheGaussianItself) {
     // What orders above N hold: about exp(−(Nωσ)²/2) of the peak.
-    const GhostMoments ghost = spot(2, 1, 2.5, 2.5, 0, 1);
+    const GhostSpot ghost = spot(2, 1, 2.5, 2.5, 0, 1);
     const double period = veil_size(std::vector{ghost}, width_mm, height_mm).period_mm;
     double before = 1.0;
     for (const int orders : {4, 8, 12}) {
@@ -76,18 +76,18 @@ TEST(VeilingGlare, ErrorFallsWithTheOrdersAsTheGaussianItself) {
 
 TEST(VeilingGlare, ManyGhostsAreTheirSum) {
     Random random(5);
-    std::vector<GhostMoments> ghosts;
+    std::vector<GhostSpot> ghosts;
     for (int k = 0; k < 40; ++k)
         ghosts.push_back(spot(random.between(-15, 15), random.between(-10, 10),
                               random.between(2, 6), random.between(2, 6), random.between(-0.7, 0.7),
                               random.between(0, 1)));
     const VeilSeries series = series_of(ghosts, VeilKernel::gaussian);
     double peak = 0.0;
-    for (const GhostMoments& ghost : ghosts) peak += gaussian(ghost, ghost.x_mm, ghost.y_mm);
+    for (const GhostSpot& ghost : ghosts) peak += gaussian(ghost, ghost.x_mm, ghost.y_mm);
     for (double y = -12; y <= 12; y += 3)
         for (double x = -18; x <= 18; x += 3) {
             double sum = 0.0;
-            for (const GhostMoments& ghost : ghosts) sum += gaussian(ghost, x, y);
+            for (const GhostSpot& ghost : ghosts) sum += gaussian(ghost, x, y);
             EXPECT_NEAR(series.at(x, y)[3], sum, 1e-4 * peak) << x << ' ' << y;
         }
 }
@@ -112,7 +112,7 @@ TEST(VeilingGlare, FluxOverThePeriodIsTheGhosts) {
 }
 
 TEST(VeilingGlare, AnEllipseIsFlatInsideAndDarkOutside) {
-    const GhostMoments ghost = spot(0, 0, 4, 3, 0, 1);
+    const GhostSpot ghost = spot(0, 0, 4, 3, 0, 1);
     const VeilSeries series = series_of({ghost}, VeilKernel::ellipse, 40);
     const double level = ghost.flux() / (std::numbers::pi * 8.0 * 6.0);
     // The taper leaves ripples of a few per cent away from the rim.
@@ -125,7 +125,7 @@ TEST(VeilingGlare, AnEllipseIsFlatInsideAndDarkOutside) {
 
 TEST(VeilingGlare, NoRepeatIsSeenOnTheSensor) {
     // A ghost beside the sensor: its repeat must not come in from the other side.
-    const GhostMoments ghost = spot(26, 0, 4, 4, 0, 1);
+    const GhostSpot ghost = spot(26, 0, 4, 4, 0, 1);
     const VeilSeries series = series_of({ghost}, VeilKernel::gaussian);
     EXPECT_LT(worst(series, ghost), 2e-4);
     EXPECT_LT(series.at(-18.0, 0.0)[3], 2e-4 * gaussian(ghost, 26, 0));

@@ -1,19 +1,19 @@
-#include "core/flare/ghost_moments.h"
+#include "core/flare/ghost_spot.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace ghostlight {
 
-std::array<double, 2> GhostMoments::sigmas_mm() const {
+std::array<double, 2> GhostSpot::sigmas_mm() const {
     const double middle = 0.5 * (xx_mm2 + yy_mm2);
     const double apart = std::hypot(0.5 * (xx_mm2 - yy_mm2), xy_mm2);
     return {std::sqrt(std::max(0.0, middle - apart)), std::sqrt(std::max(0.0, middle + apart))};
 }
 
-GhostMoments moments_of(const MeshNodes& nodes, const PixelFrame& frame) {
+GhostSpot spot_of(const MeshNodes& nodes, const PixelFrame& frame) {
     constexpr int parts = 6;  // of a cell, each way: a rim's place to a few per cent of a cell
-    GhostMoments moments;
+    GhostSpot moments;
     const int side = nodes.cells + 1;
     double x_sum = 0.0, y_sum = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
     for (int j = 0; j < nodes.cells; ++j)

@@ -3,15 +3,14 @@
 #include <array>
 
 #include "core/flare/color_mesh.h"
+#include "core/flare/flare_plan.h"
 #include "core/flare/ghost_mesh.h"
 
 namespace ghostlight {
 
-/// Flux, place and size of a ghost's light on the sensor plane, on the sensor or beside it.
-struct GhostMoments {
-    std::array<double, 4> flux_mm2{};                 ///< over E0: linear Rec.709, irradiance
-    double x_mm = 0.0, y_mm = 0.0;                    ///< centroid
-    double xx_mm2 = 0.0, xy_mm2 = 0.0, yy_mm2 = 0.0;  ///< central second moments
+/// A ghost's light on the sensor plane, on the sensor or beside it, with its flux and colour.
+struct GhostSpot : GhostMoments {
+    std::array<double, 4> flux_mm2{};  ///< over E0: linear Rec.709, irradiance
 
     double flux() const { return flux_mm2[3]; }
     /// Standard deviations along the principal axes, the smaller first, mm.
@@ -20,6 +19,6 @@ struct GhostMoments {
 
 /// Moments of the light that a grid of rays carries, each cell split into parts of which those
 /// inside the interpolated clearances count. `nodes.weights` holds 4 a node.
-GhostMoments moments_of(const MeshNodes& nodes, const PixelFrame& frame);
+GhostSpot spot_of(const MeshNodes& nodes, const PixelFrame& frame);
 
 }  // namespace ghostlight
