@@ -12,6 +12,9 @@ namespace ghostlight {
 namespace {
 
 constexpr int rest_ms = 1000;
+/// Each round takes so many times the cells of the last, up to a limit.
+constexpr std::size_t more_cells = 4;
+constexpr std::size_t most_cells = 16'000;
 
 }  // namespace
 
@@ -72,7 +75,8 @@ void CertificateJob::work(const Task& task, const std::stop_token& stop) {
     };
     try {
         // Half of the cores: what the hand does next finds the others free.
-        const PlanProofRequest request{.threads = std::max(1U, default_thread_count() / 2)};
+        PlanProofRequest request;
+        request.threads = std::max(1U, default_thread_count() / 2);
         const FlareScene scene = flare_scene(task.lens, task.scene.light().spectrum,
                                              FlareScene::usual_samples, request.threads);
         std::atomic<int> reported_percent{-1};
@@ -82,16 +86,19 @@ void CertificateJob::work(const Task& task, const std::stop_token& stop) {
                 say([this, share] { Q_EMIT progressed(share); });
             }
         };
-        auto proof =
-            certify(scene, task.scene.light().direction, task.plan, request, stop, progress);
-        if (!proof) {
-            return;
+        for (bool is_last = false; !is_last; request.most_cells *= more_cells) {
+            auto proof =
+                certify(scene, task.scene.light().direction, task.plan, request, stop, progress);
+            if (!proof) {
+                return;
+            }
+            is_last = proof->certified == proof->ghosts.size() || request.most_cells >= most_cells;
+            const auto shared = std::make_shared<const PlanProof>(std::move(*proof));
+            say([this, shared, is_last] {
+                is_busy_ = !is_last;
+                Q_EMIT certified(shared);
+            });
         }
-        const auto shared = std::make_shared<const PlanProof>(std::move(*proof));
-        say([this, shared] {
-            is_busy_ = false;
-            Q_EMIT certified(shared);
-        });
     } catch (const std::exception&) {
         // A lens that drew can be compiled; should it not, nothing is claimed.
         say([this] { withdraw(); });

@@ -15,7 +15,8 @@
 namespace ghostlight {
 
 /// While the picture is at rest and everything else is done: proves, in the background, what the
-/// search for where ghosts enter can have missed. Any change of the document ends it.
+/// search for where ghosts enter can have missed, in rounds of ever more work until all of it is
+/// certified. Any change of the document ends it.
 class CertificateJob : public QObject {
     Q_OBJECT
    public:
@@ -29,6 +30,7 @@ class CertificateJob : public QObject {
 
    Q_SIGNALS:
     void progressed(double share);
+    /// A round is done; is_busy() tells whether another follows.
     void certified(std::shared_ptr<const ghostlight::PlanProof> proof);
     /// What was said of the last picture holds no more.
     void withdrawn();

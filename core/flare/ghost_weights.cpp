@@ -16,6 +16,21 @@ constexpr std::size_t few_valid = 8;    ///< of 28
 constexpr double least_error = 1e-3;    ///< of the light: more is looked at more closely
 constexpr double steeper_by_rad = 0.1;  ///< than the rays of a grid may be those between them
 
+/// Rays of a half grid that get through all clear radii, and their neighbours, valid or not.
+std::vector<char> beside_light(const MirrorGrid& grid) {
+    const int across = grid.half_side(), rows = grid.side();
+    std::vector<char> lit(grid.half.size(), 0);
+    for (int j = 0; j < rows; ++j)
+        for (int i = 0; i < across; ++i) {
+            const auto k = static_cast<std::size_t>(j * across + i);
+            if (grid.half.margin[k] < 0.0F || grid.half.r_rel[k] > 1.0F) continue;
+            for (int n = std::max(0, j - 1); n <= std::min(rows - 1, j + 1); ++n)
+                for (int m = std::max(0, i - 1); m <= std::min(across - 1, i + 1); ++m)
+                    lit[static_cast<std::size_t>(n * across + m)] = 1;
+        }
+    return lit;
+}
+
 }  // namespace
 
 PolarisedShare polarised_share(const FlareScene& scene, const TracePath<float>& path,
@@ -90,14 +105,16 @@ template std::vector<float> ray_light<color_channels>(const FlareScene&, const M
 double box_bound_mm2(const FlareScene& scene, const TracePath<float>& path,
                      const MirrorGrid& grid) {
     double bound = grid.box.area_mm2();
-    const Bundle<float>& rays = grid.half;
-    if (std::ranges::any_of(rays.margin, [](float margin) { return margin < 0.0F; })) return bound;
+    const std::vector<char> lit = beside_light(grid);
+    if (std::ranges::none_of(lit, [](char is_lit) { return is_lit != 0; })) return bound;
     for (std::size_t s = 0; s < path.steps.size(); ++s) {
         const TraceStep<float>& step = path.steps[s];
         if (!step.reflects) continue;
-        const float* cosines = rays.cosines.data() + s * rays.cosine_stride;
-        const auto least = static_cast<double>(*std::min_element(cosines, cosines + rays.size()));
-        const double steepest_rad = std::acos(std::clamp(least, 0.0, 1.0)) + steeper_by_rad;
+        const float* cosines = grid.half.cosines.data() + s * grid.half.cosine_stride;
+        float least = 1.0F;
+        for (std::size_t k = 0; k < lit.size(); ++k)
+            if (lit[k] != 0) least = std::min(least, cosines[k] >= 0.0F ? cosines[k] : 0.0F);
+        const double steepest_rad = std::acos(static_cast<double>(least)) + steeper_by_rad;
         bound *=
             scene.films.most_reflected(static_cast<std::size_t>(step.surface), step.sense > 0.0F,
                                        steepest_rad < 1.57 ? std::cos(steepest_rad) : 0.0);

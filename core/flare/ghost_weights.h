@@ -32,8 +32,8 @@ std::vector<float> ray_light(const FlareScene& scene, const MirrorGrid& grid,
                              const std::vector<float>& weights, const std::vector<float>& shares);
 
 /// The most light that a path can bring through the box of a half grid that kept its cosines, mm²
-/// over E0: the box, the largest reflectances at the incidences seen there and somewhat steeper
-/// ones, and no loss at any transmission. All of the light where a ray of the grid fails.
+/// over E0: the box, the largest reflectances at the incidences seen there (beside rays that get
+/// through) and somewhat steeper ones, and no loss at any transmission.
 double box_bound_mm2(const FlareScene& scene, const TracePath<float>& path, const MirrorGrid& grid);
 
 }  // namespace ghostlight

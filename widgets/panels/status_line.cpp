@@ -135,7 +135,10 @@ void StatusLine::show_engine(const EngineState& state) {
 }
 
 void StatusLine::show_proving(double share) {
-    proof_->set_text(QStringLiteral("proving bounds %1 %").arg(qRound(100.0 * share)));
+    const QString percent = QStringLiteral(" %1 %").arg(qRound(100.0 * share));
+    proof_->set_text((proven_.isEmpty() ? QStringLiteral("proving bounds")
+                                        : proven_ + QStringLiteral(" · proving on")) +
+                     percent);
     proof_->setToolTip(
         "Whether the search for where ghosts enter has missed light; stops when "
         "something changes");
@@ -144,9 +147,14 @@ void StatusLine::show_proving(double share) {
 void StatusLine::show_proof(const std::shared_ptr<const PlanProof>& proof) {
     const double missed = proof->missed_share();
     const bool certified = proof->certified == proof->ghosts.size();
-    proof_->set_text(
-        certified ? QStringLiteral("*bounds certified*")
-                  : QStringLiteral("missed light ≤ *%1 %*").arg(significant(100.0 * missed, 2)));
+    // A bound above all of the light says nothing about what was missed.
+    proven_ = certified ? QStringLiteral("*bounds certified*")
+              : missed < 1.0
+                  ? QStringLiteral("missed light ≤ *%1 %*").arg(significant(100.0 * missed, 2))
+                  : QStringLiteral("bounds of %1 of %2 ghosts certified")
+                        .arg(proof->certified)
+                        .arg(proof->ghosts.size());
+    proof_->set_text(proven_);
     proof_->setToolTip(
         QStringLiteral("Proven by interval arithmetic in %1 s: outside of where ghosts are drawn, "
                        "light on the sensor comes to at most %2 % of theirs.\nThe bound of %3 of "
@@ -158,6 +166,7 @@ void StatusLine::show_proof(const std::shared_ptr<const PlanProof>& proof) {
 }
 
 void StatusLine::clear_proof() {
+    proven_.clear();
     proof_->set_text({});
     proof_->setToolTip({});
 }

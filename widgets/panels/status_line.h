@@ -52,6 +52,7 @@ class StatusLine : public QWidget {
     TabularLabel* engine_;
     TabularLabel* saved_;
     std::uint64_t timed_revision_ = 0;
+    QString proven_;  ///< what the last proof came to
 };
 
 }  // namespace ghostlight
