@@ -74,8 +74,9 @@ std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequ
                                        std::stop_token stop = {});
 
 /// The planned method traces half of each beam, turned into the y–z plane: the rectangle of a
-/// sensor that reflects has to be symmetric about that. Where it is not, render_flare() draws
-/// uniformly.
+/// sensor that reflects has to be symmetric about that. Its grids are as fine as the map asks for,
+/// which an image in the stop may not be content with. Where either is the case, render_flare()
+/// draws uniformly.
 bool can_be_planned(const OpticalSystem& system, const LightDirection& light);
 
 /// The method `uniform`.
