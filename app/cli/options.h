@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/cli/stop_options.h"
 #include "core/error.h"
 #include "core/io/lens_file.h"
 #include "core/optics/prescription.h"
@@ -67,6 +68,7 @@ CLI::Option* add_text(CLI::App& command, const std::string& name, std::string& v
 /// LENS and what overrides it for one run.
 struct LensOptions {
     std::string lens, config, f_number, stop_semi_diameter, sensor, sensor_reflectance, coating;
+    StopOptions stop;
 };
 CLI::Option* add_lens(CLI::App& command, LensOptions& options);
 

@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 
 #include "app/cli/commands.h"
 #include "app/cli/exposure.h"
 #include "app/cli/method_option.h"
 #include "app/cli/output.h"
+#include "app/cli/picture_file.h"
 #include "app/cli/report.h"
 #include "app/cli/spectrum_option.h"
 #include "core/flare/flare_image.h"
@@ -25,16 +25,6 @@ struct RenderOptions {
     std::string width = "1280", exposure, per_ghost;
     OutputOptions output;  ///< its file is the picture
 };
-
-std::string extension_of(const std::string& file) {
-    std::string extension = std::filesystem::path(file).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
-        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    });
-    if (extension != ".exr" && extension != ".png" && extension != ".tif" && extension != ".tiff")
-        throw bad_value("--output", file, "a file name that ends in .exr, .png, .tif or .tiff");
-    return extension;
-}
 
 /// The ghosts that bring the most light to the sensor, and each one's picture.
 struct GhostLayers {
@@ -79,21 +69,14 @@ FlareOrigin origin_of(const LoadedLens& loaded, const FlareRequest& request) {
 
 void run(const RenderOptions& options) {
     const std::string& file = options.output.file;
-    const std::string extension = extension_of(file);
+    const std::string extension = picture_extension(file);
     FlareRequest request;
     request.light = light_direction(options.light);
     request.spectrum = spectrum_of(options.spectrum);
     set_method(options.method, request);
     request.width_px = static_cast<int>(integer_value(
         "--width", options.width, "a whole number of pixels from 16 to 16384", 16, 16384));
-    std::optional<double> exposure_ev;
-    if (!options.exposure.empty()) {
-        if (extension == ".exr")
-            throw Error(
-                "--exposure: an EXR file holds linear values; the exposure is for .png and .tif");
-        exposure_ev = number_value("--exposure", options.exposure, "stops from -64 to 64",
-                                   [](double ev) { return ev >= -64.0 && ev <= 64.0; });
-    }
+    std::optional<double> exposure_ev = exposure_value(options.exposure, extension);
     std::size_t per_ghost = 0;
     if (!options.per_ghost.empty()) {
         if (extension != ".exr") throw Error("--per-ghost: only an EXR file has layers");

@@ -23,7 +23,7 @@ struct DirectBeam {
     /// that of the stop's medium, B from the stop to the sensor. Finite when telecentric; negative
     /// where the pattern is upside down.
     double radius_per_k_mm = 0.0;
-    /// a²M/(λB): 0 in focus; its sign is that of M/B.
+    /// a²M/(λB), M by real rays: 0 in focus; its sign is that of M/B.
     double fresnel_number = 0.0;
 
     bool is_dark() const;

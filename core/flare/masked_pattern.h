@@ -16,7 +16,7 @@ struct PatternMask {
 };
 
 /// Beyond this Fresnel number fringes are finer than the transform's grid: light goes straight.
-inline constexpr double most_fresnel_number = 100.0;
+inline constexpr double most_fresnel_number = 40.0;
 
 /// The pattern of any mask, by discrete Fourier transforms of its raster: one coarse and wide
 /// padded for the core, one fine for the rest; beyond that, as the outermost octave goes on, ∝ 1/k³

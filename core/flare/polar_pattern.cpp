@@ -142,9 +142,9 @@ class EdgeSpread {
 /// An edge as the far field sees it.
 struct FarEdge {
     double length = 0.0;
-    double normal_rad = 0.0;                     ///< direction across it
-    double turn_before = 0.0, turn_after = 0.0;  ///< of a curved one, to either side
-    double arc_length = 0.0;                     ///< of all chords that go round together
+    double normal_rad = 0.0;  ///< direction across it
+    double turn_rad = 0.0;    ///< of a curved one, from end to end
+    double arc_length = 0.0;  ///< of all chords that go round together
 };
 
 std::vector<FarEdge> far_edges(const ApertureOutline& outline) {
@@ -155,12 +155,25 @@ std::vector<FarEdge> far_edges(const ApertureOutline& outline) {
         edges[i].length = edges[i].arc_length = std::hypot(d.x, d.y);
         edges[i].normal_rad = std::atan2(-d.x, d.y);
     }
+    // Curvature at its smooth ends, times its length.
+    auto curvature = [&](std::size_t before, std::size_t after) {
+        const double turn =
+            std::remainder(edges[after].normal_rad - edges[before].normal_rad, 2.0 * pi);
+        const double length = 0.5 * (edges[before].length + edges[after].length);
+        return length > 0.0 ? turn / length : 0.0;
+    };
     for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t next = (i + 1) % n;
-        if (!outline.is_smooth[next]) continue;
-        const double turn = std::remainder(edges[next].normal_rad - edges[i].normal_rad, 2.0 * pi);
-        edges[i].turn_after = 0.5 * turn;
-        edges[next].turn_before = 0.5 * turn;
+        const std::size_t next = (i + 1) % n, before = (i + n - 1) % n;
+        double sum = 0.0, ends = 0.0;
+        if (outline.is_smooth[i]) {
+            sum += curvature(before, i);
+            ends += 1.0;
+        }
+        if (outline.is_smooth[next]) {
+            sum += curvature(i, next);
+            ends += 1.0;
+        }
+        if (ends > 0.0) edges[i].turn_rad = edges[i].length * sum / ends;
     }
     for (std::size_t i = 0; i < n; ++i) {
         // Onwards and back over smooth joints; a round opening has no others.
@@ -247,13 +260,12 @@ void add_far_ring(const std::vector<FarEdge>& edges, const EdgeSpread& spread, d
     std::vector<double> sum(PolarPattern::sectors, 0.0);
     Sectors sectors(spread, sum);
     for (const FarEdge& edge : edges) {
-        const double fan = edge.turn_before + edge.turn_after;
         const double width = 0.5 * k * edge.arc_length;
         const double light = edge.length * per_length;
-        if (fan == 0.0)
+        if (edge.turn_rad == 0.0)
             sectors.add(edge.normal_rad, light, width);
         else
-            sectors.add_fan(edge.normal_rad - edge.turn_before, fan, light, width);
+            sectors.add_fan(edge.normal_rad - 0.5 * edge.turn_rad, edge.turn_rad, light, width);
     }
     sectors.finish(share);
 }

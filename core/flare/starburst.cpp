@@ -22,6 +22,8 @@ constexpr int spectral_steps = 64;
 constexpr int flux_nodes = 5;
 /// Out of focus by less than this, what a pattern changes is below a hundredth of its peak.
 constexpr double sharp_fresnel_number = 0.05;
+/// A blur that ends within so much of a pixel does not show.
+constexpr double unseen_blur_px = 0.5;
 /// Patterns out of focus are not scaled copies of each other: so many over the spectrum.
 constexpr int defocused_patterns = 5;
 /// How far out patterns go: past the corner opposite to an image at a corner.
@@ -53,14 +55,18 @@ std::optional<ApertureOutline> opening(const DirectBeam& beam, const StopMask& m
     return blades.is_unit_circle ? *beam.limits : intersection(*beam.limits, blades);
 }
 
-std::optional<std::vector<PolarPattern>> patterns_of(const Prescription& lens,
-                                                     const OpticalSystem& system,
-                                                     const DirectBeam& beam,
-                                                     const std::vector<SpectralSample>& samples,
-                                                     double last_k, unsigned threads,
-                                                     const std::stop_token& stop) {
+/// Radius of the disc that the beam out of focus fills.
+double blur_mm(const DirectBeam& beam) {
+    return 2.0 * std::numbers::pi * std::abs(beam.fresnel_number * beam.radius_per_k_mm);
+}
+
+std::optional<std::vector<PolarPattern>> patterns_of(
+    const Prescription& lens, const OpticalSystem& system, const DirectBeam& beam,
+    const std::vector<SpectralSample>& samples, double last_k, double pitch_mm, unsigned threads,
+    const std::stop_token& stop) {
     std::vector<PolarPattern> patterns;
-    const bool sharp = std::abs(beam.fresnel_number) < sharp_fresnel_number;
+    const bool sharp = std::abs(beam.fresnel_number) < sharp_fresnel_number ||
+                       blur_mm(beam) < unseen_blur_px * pitch_mm;
     if (sharp && !system.stop_mask.picture && lens.stop.dirt.is_clean()) {
         patterns.push_back(pattern_of(*opening(beam, system.stop_mask), last_k, threads, stop));
         if (stop.stop_requested()) return std::nullopt;
@@ -107,10 +113,12 @@ std::optional<Model> model_of(const Prescription& lens, const StarburstRequest& 
         std::ranges::min(samples, {}, &SpectralSample::wavelength_nm).wavelength_nm;
     const double last_k =
         std::max(PolarPattern::first_k * 2.0, reach_mm / (std::abs(per_k_per_nm) * shortest_nm));
-    const auto patterns = patterns_of(lens, system, *beam, samples, last_k, request.threads, stop);
+    const auto patterns =
+        patterns_of(lens, system, *beam, samples, last_k, system.sensor_width_mm / request.width_px,
+                    request.threads, stop);
     if (!patterns) return std::nullopt;
     model.table.emplace(*patterns, samples, sample_colors(request.spectrum, samples), weights,
-                        per_k_per_nm, request.smoothing_deg, request.threads);
+                        per_k_per_nm, blur_mm(*beam), request.smoothing_deg, request.threads);
     const double cosine = beam->cos_image_angle;
     model.placement = {.x_mm = beam->x_mm,
                        .y_mm = beam->y_mm,

@@ -45,11 +45,11 @@ class StarburstTable {
     static constexpr int channels = 4;  ///< linear Rec.709 and irradiance
 
     /// One pattern of each wavelength of `samples`, or one for all of them. `weights`: of each
-    /// sample, flux × the light's share.
+    /// sample, flux × the light's share. `blur_mm`: radius of what is out of focus.
     StarburstTable(const std::vector<PolarPattern>& patterns,
                    const std::vector<SpectralSample>& samples, const std::vector<Rgb>& colors,
                    const std::vector<double>& weights, double radius_per_k_mm_per_nm,
-                   double smoothing_deg, unsigned threads);
+                   double blur_mm, double smoothing_deg, unsigned threads);
 
     /// How the pattern lies on a picture.
     struct Placement {
@@ -67,6 +67,7 @@ class StarburstTable {
    private:
     using Color = std::array<float, channels>;
     int rings_ = 0;
+    double blur_mm_ = 0.0;
     bool half_turn_ = true;
     double turned_rad_ = 0.0;
     double first_radius_mm_ = 0.0;

@@ -15,7 +15,9 @@ constexpr int sectors = PolarPattern::sectors;
 /// nothing of it is lost however small it is; further out each pixel takes its mean.
 constexpr double core_px = 8.0;
 /// Samples of a ring in the core, a pixel.
-constexpr double core_samples = 8.0;
+constexpr double core_samples = 12.0;
+/// So much more of a blur than its rim is taken for the core.
+constexpr double around_blur = 1.3;
 constexpr int rows_together = 16;
 
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
@@ -31,9 +33,10 @@ struct Shift {
 StarburstTable::StarburstTable(const std::vector<PolarPattern>& patterns,
                                const std::vector<SpectralSample>& samples,
                                const std::vector<Rgb>& colors, const std::vector<double>& weights,
-                               double radius_per_k_mm_per_nm, double smoothing_deg,
+                               double radius_per_k_mm_per_nm, double blur_mm, double smoothing_deg,
                                unsigned threads)
-    : half_turn_(patterns.front().half_turn),
+    : blur_mm_(blur_mm),
+      half_turn_(patterns.front().half_turn),
       turned_rad_(!half_turn_ && radius_per_k_mm_per_nm < 0.0 ? pi : 0.0) {
     double shortest_nm = samples.front().wavelength_nm, longest_nm = shortest_nm;
     for (const SpectralSample& s : samples) {
@@ -196,6 +199,8 @@ void StarburstTable::draw_core(const Placement& placement, const PixelFrame& fra
         const double fine = frame.pitch_mm / core_samples;
         const int radial = std::max(1, static_cast<int>(std::ceil((outer - inner) / fine)));
         const int around = std::max(8, static_cast<int>(std::ceil(span * outer / fine)));
+        // Each ring begins elsewhere, by the golden ratio, so that rings do not beat with pixels.
+        const double begin = std::fmod(ring * std::numbers::phi, 1.0);
         const double kept = (outer * outer - inner * inner) / (whole * whole - inner * inner);
         for (int a = 0; a < around; ++a) {
             const Color flux = flux_between(ring, static_cast<double>(a) * sectors / around,
@@ -207,7 +212,7 @@ void StarburstTable::draw_core(const Placement& placement, const PixelFrame& fra
                 const double radius =
                     std::sqrt(std::lerp(inner * inner, outer * outer, (r + 0.5) / radial));
                 for (int side = 0; side < repeats; ++side)
-                    put(radius, turned_rad_ + span * (a + 0.5) / around + side * pi, share);
+                    put(radius, turned_rad_ + span * (a + begin) / around + side * pi, share);
             }
         }
     }
@@ -222,7 +227,7 @@ bool StarburstTable::draw(const Placement& placement, const PixelFrame& frame, u
     const double stretch = placement.sagittal_stretch * placement.tangential_stretch;
     // Lengths on the sensor in the pattern's own: a pixel is smaller there.
     const double pitch = frame.pitch_mm / std::sqrt(stretch);
-    const double core_mm = core_px * pitch;
+    const double core_mm = std::max(core_px * pitch, around_blur * blur_mm_);
     const auto scale = static_cast<float>(placement.gain / stretch);
     const double last_mm = radius_mm(rings_);
     const bool finished = parallel_for(
