@@ -248,7 +248,9 @@ const FlareImage& MovingStarburst::frame(const LightDirection& light) {
         frame_.irradiance.resize(pixels);
     }
     // Where the middle ray of the light lands now; the pattern goes there by whole pixels.
-    const PathFlux coarse = PathQuadrature(system_, {}, beam_frame(light)).start();
+    const PathQuadrature quadrature(system_, {}, beam_frame(light));
+    PathFlux coarse = quadrature.start();
+    quadrature.refine(coarse, 1.0, 0.0, {});  // as it stands, for its centroid
     if (!(coarse.sums.flux > 0.0)) {
         std::ranges::fill(frame_.rgb, 0.0F);
         std::ranges::fill(frame_.irradiance, 0.0F);
