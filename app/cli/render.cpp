@@ -23,6 +23,7 @@ struct RenderOptions {
     SpectrumOptions spectrum;
     MethodOptions method;
     std::string width = "1280", exposure, per_ghost;
+    bool ringing = false;
     OutputOptions output;  ///< its file is the picture
 };
 
@@ -67,6 +68,16 @@ FlareOrigin origin_of(const LoadedLens& loaded, const FlareRequest& request) {
     return origin;
 }
 
+/// "5-3 (N 812, 2.3 px), …": which ghosts got their fringes.
+std::string rung_ghosts(const FlareImage& image) {
+    std::vector<std::string> texts;
+    for (const RungGhost& ghost : image.ringing)
+        texts.push_back(fmt::format("{} (N {:.3g}, {:.2g} px{})", name(ghost.path),
+                                    ghost.fresnel_number, ghost.first_fringe_px,
+                                    ghost.propagated ? ", whole mask" : ""));
+    return texts.empty() ? "none" : joined(texts, "; ");
+}
+
 void run(const RenderOptions& options) {
     const std::string& file = options.output.file;
     const std::string extension = picture_extension(file);
@@ -74,6 +85,9 @@ void run(const RenderOptions& options) {
     request.light = light_direction(options.light);
     request.spectrum = spectrum_of(options.spectrum);
     set_method(options.method, request);
+    request.ringing = options.ringing;
+    if (request.ringing && request.method == FlareMethod::paraxial)
+        throw Error("--ringing: not with --method paraxial, whose rims are its own");
     request.width_px = static_cast<int>(integer_value(
         "--width", options.width, "a whole number of pixels from 16 to 16384", 16, 16384));
     std::optional<double> exposure_ev = exposure_value(options.exposure, extension);
@@ -109,7 +123,7 @@ void run(const RenderOptions& options) {
                       {"spectrum", json_string(name(request.spectrum))}};
     report.table.columns = {"file",     "width_px",           "height_px",   "ghosts",  "rays",
                             "flux_mm2", "flux_on_sensor_mm2", "exposure_ev", "time_ms", "layers",
-                            "method",   "estimated_error"};
+                            "method",   "estimated_error",    "rung"};
     report.table.rows = {
         {file, static_cast<std::int64_t>(image.width_px),
          static_cast<std::int64_t>(image.height_px), static_cast<std::int64_t>(image.ghosts),
@@ -117,7 +131,8 @@ void run(const RenderOptions& options) {
          exposure_ev ? Cell(*exposure_ev) : Cell(), image.times.total_ms,
          layers.names.empty() ? Cell() : Cell(joined(layers.names, " ")),
          std::string(method_name(request.method)),
-         image.plan.ghosts.empty() ? Cell() : Cell(image.plan.estimated_error())}};
+         image.plan.ghosts.empty() ? Cell() : Cell(image.plan.estimated_error()),
+         request.ringing ? Cell(rung_ghosts(image)) : Cell()}};
     OutputOptions summary = options.output;
     summary.file.clear();
     write_report(report, summary);
@@ -148,6 +163,9 @@ void add_render(CLI::App& program) {
     add_text(*command, "--per-ghost", options->per_ghost, "N",
              "EXR: a layer ghost.I-J for each of the N ghosts that bring the most light to\n"
              "the sensor");
+    command->add_flag(
+        "--ringing", options->ringing,
+        "diffraction at the ghosts' rims, where its fringes are a pixel wide or more");
     CLI::Option* csv = command->add_flag("--csv", options->output.csv, "summary as CSV");
     command->add_flag("--json", options->output.json, "summary as JSON")->excludes(csv);
     command->footer(R"(Examples:

@@ -8,6 +8,7 @@
 #include "core/flare/ghost_mesh.h"
 #include "core/flare/paraxial_flare.h"
 #include "core/flare/planned_flare.h"
+#include "core/flare/ringing.h"
 #include "core/ghosts/pupil.h"
 #include "core/ghosts/weighted_grid.h"
 #include "core/parallel.h"
@@ -248,6 +249,8 @@ std::optional<FlareImage> render_uniform(const Prescription& lens, const FlareRe
     double sum = 0.0;
     for (const float value : image.irradiance) sum += static_cast<double>(value);
     image.flux_on_sensor_mm2 = sum * pixels.pixel_area_mm2();
+    if (request.ringing && !add_ringing(compiled_scene(lens, request), request, stop, image))
+        return std::nullopt;
     image.times.total_ms = ms_since(began);
     return image;
 }

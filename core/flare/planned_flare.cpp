@@ -6,6 +6,7 @@
 #include "core/elapsed.h"
 #include "core/flare/draw_picture.h"
 #include "core/flare/planned_ghost.h"
+#include "core/flare/ringing.h"
 #include "core/parallel.h"
 
 namespace ghostlight {
@@ -27,6 +28,11 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
     auto found = probe_all(scene, planner, request, stop);
     if (!found) return std::nullopt;
     std::vector<ProbedGhost>& probed = *found;
+    if (request.ringing) {
+        // Fringes belong onto rims that are sharp.
+        const std::vector<bool> rung = shows_fringes(system, ghosts, frame.pitch_mm);
+        for (std::size_t g = 0; g < probed.size(); ++g) probed[g].full_size = rung[g];
+    }
     image.times.bounds_ms = ms_since(began);
 
     const auto traced = Clock::now();
@@ -58,6 +64,7 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
         image.plan.error_mm2 += probed[g].planned.error_mm2;
         image.plan.ghosts.push_back(std::move(probed[g].planned));
     }
+    if (request.ringing && !add_ringing(scene, request, stop, image)) return std::nullopt;
     image.times.total_ms = ms_since(began);
     return image;
 }
