@@ -73,12 +73,20 @@ std::optional<PropagatedMask> propagated(const MaskRaster& raster, double fresne
             field[idx(first + j) * idx(across) + idx(first + i)] =
                 raster.open[idx(j * raster.across + i)];
     if (!transform_2d(field, across, false, threads, stop)) return std::nullopt;
+    // Light of frequency f lands f/N away. What would run round the padded grid and back into the
+    // part that is kept is left out (Matsushima and Shimobaba 2009), softly.
+    const double furthest = width - 1.0 - (fresnel_number < wide_below ? 4.0 : 1.0);
+    auto kept_share = [&](double f) {
+        const double t = std::clamp((furthest - f / fresnel_number) / (0.1 * furthest), 0.0, 1.0);
+        return t * t * (3.0 - 2.0 * t);
+    };
     auto frequency = [&](int i) { return (i < across / 2 ? i : i - across) / width; };
     for (int j = 0; j < across; ++j)
         for (int i = 0; i < across; ++i) {
             const double f2 = frequency(i) * frequency(i) + frequency(j) * frequency(j);
             const double phase = std::remainder(-pi * f2 / fresnel_number, 2.0 * pi);
-            field[idx(j) * idx(across) + idx(i)] *= std::polar(1.0F, static_cast<float>(phase));
+            field[idx(j) * idx(across) + idx(i)] *= std::polar(
+                static_cast<float>(kept_share(std::sqrt(f2))), static_cast<float>(phase));
         }
     if (!transform_2d(field, across, true, threads, stop)) return std::nullopt;
     PropagatedMask result;

@@ -28,11 +28,6 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
     auto found = probe_all(scene, planner, request, stop);
     if (!found) return std::nullopt;
     std::vector<ProbedGhost>& probed = *found;
-    if (request.ringing) {
-        // Fringes belong onto rims that are sharp.
-        const std::vector<bool> rung = shows_fringes(system, ghosts, frame.pitch_mm);
-        for (std::size_t g = 0; g < probed.size(); ++g) probed[g].full_size = rung[g];
-    }
     image.times.bounds_ms = ms_since(began);
 
     const auto traced = Clock::now();

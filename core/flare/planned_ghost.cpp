@@ -410,15 +410,13 @@ GhostPlanner::Fineness GhostPlanner::choose(const ProbedGhost& ghost) const {
 }
 
 void GhostPlanner::choose_level(const Fineness& chosen, double contrast_mm2,
-                                ProbedGhost& ghost) const {
-    PlannedGhost& planned = ghost.planned;
+                                PlannedGhost& planned) const {
     const double flux = std::max(planned.flux_mm2, 1e-300);
     const double allowed =
         std::max(planned.allowance_mm2 - chosen.error_mm2, level_share * planned.allowance_mm2);
     auto level_error = [&](int level) { return saturated(blur_px(level) * contrast_mm2, flux); };
     planned.level = 0;
-    while (!ghost.full_size && planned.level + 1 < picture_levels &&
-           level_error(planned.level + 1) <= allowed)
+    while (planned.level + 1 < picture_levels && level_error(planned.level + 1) <= allowed)
         ++planned.level;
     planned.error_mm2 = chosen.error_mm2 + level_error(planned.level);
 }
@@ -453,7 +451,7 @@ void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
                    bands, split, planned, mesh);
     else
         draw_grids(geometry, probe, ghost.weights, bands, split, planned, mesh);
-    choose_level(chosen, mesh.edge_contrast * frame_.pixel_area_mm2(), ghost);
+    choose_level(chosen, mesh.edge_contrast * frame_.pixel_area_mm2(), planned);
 }
 
 GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
@@ -461,7 +459,7 @@ GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
     const Fineness chosen = choose(ghost);
     planned.cells = chosen.cells;
     planned.bands = chosen.bands;
-    choose_level(chosen, ghost.errors.contrast_mm2, ghost);
+    choose_level(chosen, ghost.errors.contrast_mm2, planned);
 
     GhostDrawing drawing;
     const MirrorGrid& probe = ghost.grids[scene_.main];

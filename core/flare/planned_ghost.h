@@ -27,7 +27,6 @@ struct FirstErrors {
 struct ProbedGhost {
     PlannedGhost planned;
     FirstErrors errors;
-    bool full_size = false;         ///< to be drawn so, whatever its level could be
     std::vector<MirrorGrid> grids;  ///< the probe at every geometry wavelength
     std::vector<float>
         weights;  ///< of the probe's half grid at the main one, FilmTables::stride() a ray
@@ -83,7 +82,7 @@ class GhostPlanner {
     PupilBox entrance_;
 
     Fineness choose(const ProbedGhost& ghost) const;
-    void choose_level(const Fineness& fineness, double contrast_mm2, ProbedGhost& ghost) const;
+    void choose_level(const Fineness& fineness, double contrast_mm2, PlannedGhost& planned) const;
     template <class RayOf>
     MeshNodes place(const Bundle<float>& rays, int cells, double cell_area_mm2, RayOf ray_of) const;
     MeshNodes place(const MirrorGrid& grid) const;

@@ -32,6 +32,8 @@ constexpr double finest_fringe_px = 1.0;
 constexpr double tapered_share = 0.35;  ///< of the depth in the light
 /// Ghosts with less of the layer's light are left as they are.
 constexpr double least_flux_share = 1e-4;
+/// A rim drawn at half the size and brought up bilinearly is a ramp this many of its pixels long.
+constexpr double coarse_rim_px = 2.2;
 constexpr int channels = 4;
 using Color = std::array<float, channels>;
 
@@ -152,7 +154,8 @@ struct Rung {
     std::array<double, channels> color{};  ///< over irradiance
     std::vector<PropagatedMask> masks;     ///< by colour, where it is propagated
     std::vector<std::array<double, channels>> mask_shares;
-    double reach = 1.0;  ///< of what is drawn, in semi-diameters from the middle
+    double rim_px = 1.0;  ///< how softly the picture has its rim
+    double reach = 1.0;   ///< of what is drawn, in semi-diameters from the middle
     std::optional<MaskRaster> raster;
     std::vector<Triangle> triangles;
     std::vector<std::vector<std::uint32_t>> by_band;
@@ -486,7 +489,7 @@ class Ringing {
             for (std::size_t c = 0; c < channels; ++c) profile[c] *= own[c];
             const double slope =
                 std::abs(edge.nx * ux + edge.ny * vx) + std::abs(edge.nx * uy + edge.ny * vy);
-            covered *= coverage(edge.depth, slope);
+            covered *= coverage(edge.depth, slope * rung.rim_px);
         }
         Color change;
         for (std::size_t c = 0; c < channels; ++c)
@@ -582,6 +585,11 @@ bool add_ringing(const FlareScene& scene, const FlareRequest& request, const std
     }
     const Ringing ringing(scene, request, frame);
     std::vector<Rung> rung(chosen.size());
+    for (std::size_t g = 0; g < chosen.size(); ++g) {
+        const auto planned = std::ranges::find(image.plan.ghosts, chosen[g], &PlannedGhost::path);
+        if (planned != image.plan.ghosts.end() && planned->level > 0)
+            rung[g].rim_px = coarse_rim_px * std::exp2(planned->level);
+    }
     std::vector<char> drawn(chosen.size(), 0);
     const bool finished = parallel_for(chosen.size(), request.threads, stop, [&](std::size_t g) {
         const GhostFringes fringes =
