@@ -1,5 +1,6 @@
 #include "widgets/layered_picture.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/elapsed.h"
@@ -47,6 +48,9 @@ Scene what_matters(LayerKind kind, const Scene& scene) {
     return key;
 }
 
+/// Spectra and sizes of pictures whose moving starbursts are kept.
+constexpr std::size_t most_moving = 8;
+
 bool is_same(LayerKind kind, const FlareRequest& a, const FlareRequest& b) {
     if (kind == LayerKind::backdrop) {
         return a.width_px == b.width_px;
@@ -77,8 +81,7 @@ bool LayeredPicture::is_at_rest(const Wanted& wanted) const {
 }
 
 std::optional<FlareImage> LayeredPicture::draw_layer(LayerKind kind, const SceneView& view,
-                                                     const Wanted& wanted,
-                                                     std::stop_token stop) const {
+                                                     const Wanted& wanted, std::stop_token stop) {
     switch (kind) {
         case LayerKind::ghosts:
             return ghosts_layer(view, wanted.request, std::move(stop));
@@ -92,9 +95,35 @@ std::optional<FlareImage> LayeredPicture::draw_layer(LayerKind kind, const Scene
             }
             break;
         case LayerKind::starburst:
-            break;
+            if (wanted.is_final) {
+                return starburst_layer(view, wanted.request, render_starburst, std::move(stop));
+            }
+            return starburst_layer(
+                view, wanted.request,
+                [this](const Prescription& lens, const StarburstRequest& request,
+                       const std::stop_token&) { return moving_starburst(lens, request); },
+                std::move(stop));
     }
     return black_image(wanted.lens.sensor, wanted.request.width_px);
+}
+
+std::optional<FlareImage> LayeredPicture::moving_starburst(const Prescription& lens,
+                                                           const StarburstRequest& request) {
+    const auto fits = [&](const Moving& of) {
+        return of.spectrum == request.spectrum && of.width_px == request.width_px &&
+               of.lens == lens;
+    };
+    auto found = std::ranges::find_if(moving_, fits);
+    if (found == moving_.end()) {
+        std::erase_if(moving_, [&](const Moving& of) { return of.lens != lens; });
+        if (moving_.size() >= most_moving) {
+            moving_.erase(moving_.begin());
+        }
+        moving_.push_back({lens, request.spectrum, request.width_px,
+                           std::make_unique<MovingStarburst>(lens, request)});
+        found = moving_.end() - 1;
+    }
+    return found->starburst->frame(request.light);
 }
 
 std::optional<LayeredPicture::Result> LayeredPicture::make(const Wanted& wanted,

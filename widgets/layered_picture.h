@@ -57,9 +57,19 @@ class LayeredPicture {
     };
     const Kept* find(LayerKind kind, const Wanted& wanted) const;
     std::optional<FlareImage> draw_layer(LayerKind kind, const SceneView& view,
-                                         const Wanted& wanted, std::stop_token stop) const;
+                                         const Wanted& wanted, std::stop_token stop);
+    /// While a light moves: its pattern at a few fields, moved.
+    std::optional<FlareImage> moving_starburst(const Prescription& lens,
+                                               const StarburstRequest& request);
 
     CompiledSpectra spectra_;
+    struct Moving {
+        Prescription lens;
+        Spectrum spectrum;
+        int width_px = 0;
+        std::unique_ptr<MovingStarburst> starburst;
+    };
+    std::vector<Moving> moving_;
     /// At rest, and of the coarse size where that costs more than it holds.
     std::array<std::array<std::optional<Kept>, 2>, layer_kinds.size()> kept_;
 };

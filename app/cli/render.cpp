@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <functional>
 #include <memory>
 
@@ -9,6 +8,7 @@
 #include "app/cli/exposure.h"
 #include "app/cli/method_option.h"
 #include "app/cli/output.h"
+#include "app/cli/picture_file.h"
 #include "app/cli/report.h"
 #include "app/cli/scene_options.h"
 #include "app/cli/spectrum_option.h"
@@ -29,18 +29,9 @@ struct RenderOptions {
     SceneOptions scene;
     MethodOptions method;
     std::string width = "1280", exposure, per_ghost;
+    bool ringing = false;
     OutputOptions output;  ///< its file is the picture
 };
-
-std::string extension_of(const std::string& file) {
-    std::string extension = std::filesystem::path(file).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
-        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    });
-    if (extension != ".exr" && extension != ".png" && extension != ".tif" && extension != ".tiff")
-        throw bad_value("--output", file, "a file name that ends in .exr, .png, .tif or .tiff");
-    return extension;
-}
 
 /// The ghosts that bring the most light to the sensor, and each one's picture.
 struct GhostLayers {
@@ -93,10 +84,7 @@ SceneLayers scene_layers(const Prescription& lens, const Scene& scene,
                          const FlareRequest& request) {
     CompiledSpectra spectra(request.coating_model);
     const PatternOf pattern_of = pattern_of_size;
-    const DrawGhosts draw = [](const FlareScene& compiled, const FlareRequest& one,
-                               std::stop_token stop) {
-        return render_planned(compiled, one, std::move(stop));
-    };
+    const DrawGhosts draw = render_planned;
     const SceneView view{lens, scene, spectra, pattern_of, draw};
     SceneLayers layers;
     for (const LayerKind kind : layer_kinds) {
@@ -105,6 +93,9 @@ SceneLayers scene_layers(const Prescription& lens, const Scene& scene,
         switch (kind) {
             case LayerKind::ghosts:
                 image = ghosts_layer(view, request);
+                break;
+            case LayerKind::starburst:
+                image = starburst_layer(view, request, render_starburst);
                 break;
             case LayerKind::veil:
                 image = veil_layer(view, request);
@@ -116,8 +107,6 @@ SceneLayers scene_layers(const Prescription& lens, const Scene& scene,
                     scene.backdrop.file, lens.sensor, request.width_px,
                     sunlit_white_per_e0(first_order(compile(lens, d_line_nm)).f_number));
                 break;
-            case LayerKind::starburst:
-                throw Error("--layers: the layer starburst is not made by this version");
         }
         layers.kinds.push_back(kind);
         layers.images.push_back(std::move(*image));
@@ -138,21 +127,27 @@ FlareImage composed(const Scene& scene, SceneLayers& layers) {
     return sum;
 }
 
+/// "5-3 (N 812, 2.3 px), …": which ghosts got their fringes.
+std::string rung_ghosts(const FlareImage& image) {
+    std::vector<std::string> texts;
+    for (const RungGhost& ghost : image.ringing)
+        texts.push_back(fmt::format("{} (N {:.3g}, {:.2g} px{})", name(ghost.path),
+                                    ghost.fresnel_number, ghost.first_fringe_px,
+                                    ghost.propagated ? ", whole mask" : ""));
+    return texts.empty() ? "none" : joined(texts, "; ");
+}
+
 void run(const RenderOptions& options) {
     const std::string& file = options.output.file;
-    const std::string extension = extension_of(file);
+    const std::string extension = picture_extension(file);
     FlareRequest request;
     set_method(options.method, request);
+    request.ringing = options.ringing;
+    if (request.ringing && request.method == FlareMethod::paraxial)
+        throw Error("--ringing: not with --method paraxial, whose rims are its own");
     request.width_px = static_cast<int>(integer_value(
         "--width", options.width, "a whole number of pixels from 16 to 16384", 16, 16384));
-    std::optional<double> exposure_ev;
-    if (!options.exposure.empty()) {
-        if (extension == ".exr")
-            throw Error(
-                "--exposure: an EXR file holds linear values; the exposure is for .png and .tif");
-        exposure_ev = number_value("--exposure", options.exposure, "stops from -64 to 64",
-                                   [](double ev) { return ev >= -64.0 && ev <= 64.0; });
-    }
+    std::optional<double> exposure_ev = exposure_value(options.exposure, extension);
     std::size_t per_ghost = 0;
     if (!options.per_ghost.empty()) {
         if (extension != ".exr") throw Error("--per-ghost: only an EXR file has layers");
@@ -214,7 +209,8 @@ void run(const RenderOptions& options) {
                             "method",
                             "estimated_error",
                             "left_out_share",
-                            "not_modelled_share"};
+                            "not_modelled_share",
+                            "rung"};
     report.table.rows = {
         {file, static_cast<std::int64_t>(image.width_px),
          static_cast<std::int64_t>(image.height_px), static_cast<std::int64_t>(image.ghosts),
@@ -222,7 +218,8 @@ void run(const RenderOptions& options) {
          exposure_ev ? Cell(*exposure_ev) : Cell(), image.times.total_ms,
          all_names.empty() ? Cell() : Cell(joined(all_names, " ")),
          std::string(method_name(request.method)), of_plan(&FlarePlan::estimated_error),
-         of_plan(&FlarePlan::left_out_share), of_plan(&FlarePlan::not_modelled)}};
+         of_plan(&FlarePlan::left_out_share), of_plan(&FlarePlan::not_modelled),
+         request.ringing ? Cell(rung_ghosts(image)) : Cell()}};
     OutputOptions summary = options.output;
     summary.file.clear();
     write_report(report, summary);
@@ -252,6 +249,9 @@ void add_render(CLI::App& program) {
     add_text(*command, "--per-ghost", options->per_ghost, "N",
              "EXR: a layer ghost.I-J for each of the N ghosts that bring the most light to\n"
              "the sensor");
+    command->add_flag(
+        "--ringing", options->ringing,
+        "diffraction at the ghosts' rims, where its fringes are a pixel wide or more");
     CLI::Option* csv = command->add_flag("--csv", options->output.csv, "summary as CSV");
     command->add_flag("--json", options->output.json, "summary as JSON")->excludes(csv);
     command->footer(R"(Examples:

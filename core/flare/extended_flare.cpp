@@ -291,6 +291,57 @@ std::optional<FlareImage> render_extended(const FlareScene& scene, const FlareRe
     return image;
 }
 
+std::optional<ImageSpread> image_spread(const FlareScene& scene, const FlareRequest& request,
+                                        const LightPattern& pattern, const GhostPath& path,
+                                        std::stop_token stop) {
+    const OpticalSystem& system = scene.system();
+    const PixelFrame frame =
+        pixel_frame(system.sensor_width_mm, system.sensor_height_mm, request.width_px);
+    FlareRequest one = request;
+    one.only = {path};
+    const auto parts = parts_of(scene, one, pattern, {}, frame.pitch_mm, stop);
+    if (!parts) return std::nullopt;
+    return ImageSpread{parts->front().shift, padding_px(pattern, *parts, frame)};
+}
+
+FlareImage spread_image(const FlareImage& wide, const ImageSpread& spread,
+                        const LightPattern& pattern, const LightDirection& light,
+                        const FlareRequest& request) {
+    const PixelFrame frame =
+        pixel_frame(wide.sensor_width_mm, wide.sensor_height_mm, wide.width_px);
+    const int level = level_of(pattern, spread.shift, 0);
+    const RasterSize size = level_size(frame, level);
+    const int step = 1 << level;
+    Spot spot{.level = level,
+              .left = 0,
+              .bottom = 0,
+              .width = size.width_px,
+              .height = size.height_px,
+              .values = std::vector<float>(idx(size.width_px) * idx(size.height_px) * 4, 0.0F)};
+    for (int row = 0; row < wide.height_px; ++row)
+        for (int column = 0; column < wide.width_px; ++column) {
+            const std::size_t from = idx(row * wide.width_px + column);
+            float* to = &spot.values[idx((row / step + size.margin_px) * size.width_px +
+                                         column / step + size.margin_px) *
+                                     4];
+            const float share = 1.0F / static_cast<float>(step * step);
+            for (std::size_t c = 0; c < 3; ++c) to[c] += share * wide.rgb[3 * from + c];
+            to[3] += share * wide.irradiance[from];
+        }
+    fold_spot(spread_kernel(pattern, light, spread.shift, size.scale), spot);
+    Levels levels(frame);
+    levels.add(spot);
+    FlareImage image = wide;
+    image.width_px -= 2 * spread.pad_px;
+    image.height_px -= 2 * spread.pad_px;
+    image.sensor_width_mm -= 2.0 * spread.pad_px * frame.pitch_mm;
+    image.sensor_height_mm -= 2.0 * spread.pad_px * frame.pitch_mm;
+    const PixelFrame inner =
+        pixel_frame(image.sensor_width_mm, image.sensor_height_mm, image.width_px);
+    crop(levels.together(request.threads), frame.width_px, spread.pad_px, inner, image);
+    return image;
+}
+
 std::optional<FlareImage> render_sampled(const Prescription& lens, const FlareRequest& request,
                                          const LightPattern& pattern, int across,
                                          std::stop_token stop) {

@@ -9,6 +9,7 @@
 #include "core/flare/flare_scene.h"
 #include "core/flare/ghost_spot.h"
 #include "core/flare/light_pattern.h"
+#include "core/flare/spread_mesh.h"
 
 namespace ghostlight {
 
@@ -30,6 +31,22 @@ std::optional<std::vector<GhostSpot>> ghost_spots(const FlareScene& scene,
 std::optional<FlareImage> render_extended(const FlareScene& scene, const FlareRequest& request,
                                           const LightPattern& pattern, const Artistic& artistic,
                                           std::stop_token stop = {});
+
+/// How a path's picture is drawn out by a light's shape, and how far, px.
+struct ImageSpread {
+    GhostShift shift;
+    int pad_px = 0;
+};
+/// Nothing when stopped.
+std::optional<ImageSpread> image_spread(const FlareScene& scene, const FlareRequest& request,
+                                        const LightPattern& pattern, const GhostPath& path,
+                                        std::stop_token stop = {});
+
+/// A point light's picture, drawn with `spread.pad_px` more on every side, folded with the light's
+/// shape and cut to the request's width.
+FlareImage spread_image(const FlareImage& wide, const ImageSpread& spread,
+                        const LightPattern& pattern, const LightDirection& light,
+                        const FlareRequest& request);
 
 /// The same by any engine, as the mean over `across` × `across` patches of the pattern.
 std::optional<FlareImage> render_sampled(const Prescription& lens, const FlareRequest& request,

@@ -8,6 +8,7 @@
 #include "core/flare/ghost_mesh.h"
 #include "core/flare/paraxial_flare.h"
 #include "core/flare/planned_flare.h"
+#include "core/flare/ringing.h"
 #include "core/ghosts/pupil.h"
 #include "core/ghosts/weighted_grid.h"
 #include "core/parallel.h"
@@ -19,6 +20,8 @@ constexpr int band_rows = 16;
 /// The reference's grids: what is left of a bend is far below a pixel.
 constexpr double reference_bend_px = 0.01;
 constexpr int coarsest_reference = 256, finest_reference = 640;
+/// Where the stop is an image, whose shape is followed from node to node.
+constexpr int coarsest_pictured = 128;
 constexpr double color_margin = 0.04;  ///< of a pupil's breadth, when it is shared by wavelengths
 
 PupilBox widened(const PupilBox& box, double share) {
@@ -106,6 +109,7 @@ FlareScene compiled_scene(const Prescription& lens, const FlareRequest& request)
 }  // namespace
 
 bool can_be_planned(const OpticalSystem& system, const LightDirection& light) {
+    if (system.stop_mask.picture) return false;
     return !system.sensor_face || std::abs(std::fmod(light.azimuth_deg, 180.0)) == 90.0;
 }
 
@@ -179,6 +183,8 @@ std::optional<FlareImage> render_uniform(const Prescription& lens, const FlareRe
             cells = reference ? std::max(coarsest_reference,
                                          cells_for_bend(probe, bend_mm, reach_mm, finest_reference))
                               : cells_for_bend(probe, bend_mm, reach_mm);
+        if (request.grid == 0 && system.stop_mask.picture)
+            cells = std::max(cells, coarsest_pictured);
         const auto grid = weighted_grid(system, path, frame, pupil.box, probe, cells, reference);
         meshes[t].mesh = ghost_mesh(grid, pixels, 1.0);
         meshes[t].rays = grid.rays() + probe.rays.size();
@@ -243,6 +249,8 @@ std::optional<FlareImage> render_uniform(const Prescription& lens, const FlareRe
     double sum = 0.0;
     for (const float value : image.irradiance) sum += static_cast<double>(value);
     image.flux_on_sensor_mm2 = sum * pixels.pixel_area_mm2();
+    if (request.ringing && !add_ringing(compiled_scene(lens, request), request, stop, image))
+        return std::nullopt;
     image.times.total_ms = ms_since(began);
     return image;
 }

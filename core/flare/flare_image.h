@@ -47,6 +47,8 @@ struct FlareRequest {
     int spectral_samples = 5;  ///< used when the light is not of one wavelength
     /// Draw these paths alone, by `uniform`; empty = all ghosts.
     std::vector<GhostPath> only;
+    /// Diffraction at the ghosts' rims, where it shows (ringing.h); not with `paraxial`.
+    bool ringing = false;
     std::vector<GhostPath> highlighted;  ///< these ghosts also go into FlareImage::highlight
     unsigned threads = 0;
 };
@@ -54,6 +56,15 @@ struct FlareRequest {
 /// Wall time of the parts of a picture, ms.
 struct FlareTimes {
     double bounds_ms = 0.0, trace_ms = 0.0, raster_ms = 0.0, composite_ms = 0.0, total_ms = 0.0;
+    double ringing_ms = 0.0;
+};
+
+/// A ghost that got its fringes.
+struct RungGhost {
+    GhostPath path;
+    double fresnel_number = 0.0;
+    double first_fringe_px = 0.0;  ///< from the rim to the first bright one
+    bool propagated = false;       ///< the whole mask, not its edge alone
 };
 
 /// Irradiance / E0 on the sensor. Row 0 is the lowest y, column 0 the lowest x, as seen on the
@@ -69,6 +80,7 @@ struct FlareImage {
     double flux_on_sensor_mm2 = 0.0;
     std::size_t ghosts = 0, rays = 0, cells = 0;
     FlareTimes times;
+    std::vector<RungGhost> ringing;
     FlarePlan plan;  ///< of the method `planned`; else empty
 };
 
@@ -80,8 +92,9 @@ std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequ
                                        std::stop_token stop = {});
 
 /// The planned method traces half of each beam, turned into the y–z plane: the rectangle of a
-/// sensor that reflects has to be symmetric about that. Where it is not, render_flare() draws
-/// uniformly.
+/// sensor that reflects has to be symmetric about that. Its grids are as fine as the map asks for,
+/// which an image in the stop may not be content with. Where either is the case, render_flare()
+/// draws uniformly.
 bool can_be_planned(const OpticalSystem& system, const LightDirection& light);
 
 /// The method `uniform`.

@@ -62,7 +62,8 @@ FlareScene flare_scene(const Prescription& lens, const Spectrum& spectrum, int s
             .main = main,
             .coating_model = model,
             .films = FilmTables(compiled(lens, weight_nm), threads, model),
-            .ghosts = std::move(ghosts)};
+            .ghosts = std::move(ghosts),
+            .dirt = lens.stop.dirt};
 }
 
 template <int C>

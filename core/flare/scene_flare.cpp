@@ -193,6 +193,40 @@ std::optional<FlareImage> ghosts_layer(const SceneView& view, const FlareRequest
     return sum ? std::move(sum) : black_image(view.lens.sensor, request.width_px);
 }
 
+std::optional<FlareImage> starburst_layer(const SceneView& view, const FlareRequest& request,
+                                          const DrawStarburst& draw, std::stop_token stop) {
+    FlareImage sum = black_image(view.lens.sensor, request.width_px);
+    for (const Light& light : view.scene.lights) {
+        if (!light.on) continue;
+        StarburstRequest one;
+        one.light = light.direction;
+        one.spectrum = light.spectrum;
+        one.width_px = request.width_px;
+        one.threads = request.threads;
+        const LightPattern pattern = view.pattern_of(light.size);
+        std::optional<FlareImage> image;
+        if (pattern.is_point()) {
+            image = draw(view.lens, one, stop);
+        } else {
+            const FlareScene& compiled = view.spectra.of(view.lens, light.spectrum);
+            const auto spread =
+                image_spread(compiled, of_light(request, light), pattern, GhostPath{}, stop);
+            if (!spread) return std::nullopt;
+            // What the fold brings in from beside the frame.
+            Prescription wide = view.lens;
+            const double pitch_mm = wide.sensor.width_mm / request.width_px;
+            wide.sensor.width_mm += 2.0 * spread->pad_px * pitch_mm;
+            wide.sensor.height_mm += 2.0 * spread->pad_px * pitch_mm;
+            one.width_px += 2 * spread->pad_px;
+            image = draw(wide, one, stop);
+            if (image) image = spread_image(*image, *spread, pattern, light.direction, request);
+        }
+        if (!image) return std::nullopt;
+        add_image(sum, *image, gain_of(view.scene, light));
+    }
+    return sum;
+}
+
 std::vector<std::size_t> foldable(std::span<const GhostSpot> ghosts, double share,
                                   double sensor_width_mm, double sensor_height_mm) {
     struct Candidate {

@@ -11,6 +11,7 @@
 #include "core/flare/flare_scene.h"
 #include "core/flare/light_pattern.h"
 #include "core/flare/scene.h"
+#include "core/flare/starburst.h"
 
 namespace ghostlight {
 
@@ -55,6 +56,16 @@ std::optional<FlareImage> ghosts_layer(const SceneView& view, const FlareRequest
 /// image. Black when neither is asked for. Nothing when stopped.
 std::optional<FlareImage> veil_layer(const SceneView& view, const FlareRequest& request,
                                      std::stop_token stop = {});
+
+/// What draws the starburst of a point light on a sensor of some size.
+using DrawStarburst = std::function<std::optional<FlareImage>(
+    const Prescription& lens, const StarburstRequest& request, std::stop_token stop)>;
+
+/// The scene's starburst: of each light that is on, times its intensity. Of a light of some extent
+/// it is the point's, folded with the light's shape as the direct image maps it. Nothing when
+/// stopped.
+std::optional<FlareImage> starburst_layer(const SceneView& view, const FlareRequest& request,
+                                          const DrawStarburst& draw, std::stop_token stop = {});
 
 /// Which ghosts may be folded into the veil: those of the least irradiance whose kernels are broad
 /// enough, together with at most `share` of the light of all that reach the sensor. Indices into

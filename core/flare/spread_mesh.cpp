@@ -69,28 +69,6 @@ void draw(const ColorMesh<color_channels>& mesh, Spot& spot) {
     }
 }
 
-void fold(const SpreadKernel& kernel, Spot& spot) {
-    if (kernel.reach_x == 0 && kernel.reach_y == 0) return;
-    Spot wide = spot;
-    wide.left -= kernel.reach_x;
-    wide.bottom -= kernel.reach_y;
-    wide.width += 2 * kernel.reach_x;
-    wide.height += 2 * kernel.reach_y;
-    wide.values.assign(idx(wide.width * wide.height) * 4, 0.0F);
-    const int across = 2 * kernel.reach_x + 1;
-    for (int b = 0; b <= 2 * kernel.reach_y; ++b)
-        for (int a = 0; a < across; ++a) {
-            const float share = kernel.shares[idx(b * across + a)];
-            if (share == 0.0F) continue;
-            for (int row = 0; row < spot.height; ++row) {
-                const float* from = spot.values.data() + idx(row * spot.width) * 4;
-                float* to = wide.values.data() + idx((row + b) * wide.width + a) * 4;
-                for (std::size_t i = 0; i < idx(spot.width) * 4; ++i) to[i] += share * from[i];
-            }
-        }
-    spot = std::move(wide);
-}
-
 }  // namespace
 
 SpreadKernel spread_kernel(const LightPattern& pattern, const LightDirection& light,
@@ -178,8 +156,30 @@ Spot draw_spot(const ColorMesh<color_channels>& mesh, const PixelFrame& frame, i
     draw(moved(mesh, dx_px + (size.margin_px - spot.left) / size.scale,
                dy_px + (size.margin_px - spot.bottom) / size.scale, gain),
          spot);
-    fold(kernel, spot);
+    fold_spot(kernel, spot);
     return spot;
+}
+
+void fold_spot(const SpreadKernel& kernel, Spot& spot) {
+    if (kernel.reach_x == 0 && kernel.reach_y == 0) return;
+    Spot wide = spot;
+    wide.left -= kernel.reach_x;
+    wide.bottom -= kernel.reach_y;
+    wide.width += 2 * kernel.reach_x;
+    wide.height += 2 * kernel.reach_y;
+    wide.values.assign(idx(wide.width * wide.height) * 4, 0.0F);
+    const int across = 2 * kernel.reach_x + 1;
+    for (int b = 0; b <= 2 * kernel.reach_y; ++b)
+        for (int a = 0; a < across; ++a) {
+            const float share = kernel.shares[idx(b * across + a)];
+            if (share == 0.0F) continue;
+            for (int row = 0; row < spot.height; ++row) {
+                const float* from = spot.values.data() + idx(row * spot.width) * 4;
+                float* to = wide.values.data() + idx((row + b) * wide.width + a) * 4;
+                for (std::size_t i = 0; i < idx(spot.width) * 4; ++i) to[i] += share * from[i];
+            }
+        }
+    spot = std::move(wide);
 }
 
 void add_spot(const Spot& spot, const PixelFrame& frame, std::vector<float>& picture) {

@@ -39,6 +39,9 @@ Spot draw_spot(const ColorMesh<color_channels>& mesh, const PixelFrame& frame, i
                double dx_px, double dy_px, const std::array<double, 4>& gain,
                const SpreadKernel& kernel);
 
+/// Folds a spot with a kernel of its level; it grows by the kernel's reach.
+void fold_spot(const SpreadKernel& kernel, Spot& spot);
+
 /// Adds a spot to a level's whole picture.
 void add_spot(const Spot& spot, const PixelFrame& frame, std::vector<float>& picture);
 
