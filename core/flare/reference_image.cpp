@@ -189,7 +189,8 @@ void fill(const SamplingLevel& level, const Ladder& ladder, double allowance_mm2
     ghost.on_sensor_error_mm2 = std::abs(ladder.fine.on_sensor_mm2 - ladder.coarse.on_sensor_mm2);
     ghost.allowance_mm2 = allowance_mm2;
     ghost.error_mm2 = ladder.error_mm2;
-    ghost.level = level;
+    ghost.level = ladder.level;
+    ghost.sampling = level;
     ghost.rays = ladder.rays;
     ghost.converged = ladder.error_mm2 <= allowance_mm2;
 }
@@ -203,8 +204,8 @@ FlarePlan plan_of(const ReferenceImage& result, double tolerance) {
         planned.fate = ghost.on_sensor_mm2 > 0.0 ? GhostFate::drawn
                        : ghost.flux_mm2 > 0.0    ? GhostFate::off_sensor
                                                  : GhostFate::nothing_passes;
-        planned.cells = ghost.level.cells;
-        planned.bands = ghost.level.wavelengths;
+        planned.cells = ghost.sampling.cells;
+        planned.bands = ghost.sampling.wavelengths;
         planned.flux_mm2 = ghost.on_sensor_mm2;
         planned.whole_flux_mm2 = ghost.flux_mm2;
         planned.allowance_mm2 = ghost.allowance_mm2;
@@ -287,8 +288,8 @@ std::optional<ReferenceImage> render_reference(const Prescription& lens,
         const std::size_t g = order[k];
         Ladder ladder = levels.climb(paths[g], begin_at[g], std::move(pupils[g]));
         ladder.rays += rays[g];
-        while (ladder.error_mm2 > allowances[g] && ladder.level < levels.finest() &&
-               !stop.stop_requested())
+        while (request.levels.empty() && ladder.error_mm2 > allowances[g] &&
+               ladder.level < levels.finest() && !stop.stop_requested())
             levels.climb_on(paths[g], ladder);
         ReferenceGhost& ghost = result.ghosts[g];
         ghost.path = paths[g];

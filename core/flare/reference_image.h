@@ -27,6 +27,9 @@ struct ReferenceRequest {
     std::vector<GhostPath> highlighted;  ///< these also go into FlareImage::highlight
     WeightModel weights = WeightModel::carried;
     TracePrecision precision = TracePrecision::double_precision;
+    /// Of each path, in their order: levels to draw at, instead of by the errors. Pictures drawn at
+    /// the same levels have the same sampling errors, and differ by their physics alone.
+    std::vector<int> levels;
     int finest_level = 14;  ///< of sampling_level(): 3072 cells across
     unsigned threads = 0;   ///< 0 = all cores; the result does not depend on it
 };
@@ -38,7 +41,8 @@ struct ReferenceGhost {
     double on_sensor_mm2 = 0.0, on_sensor_error_mm2 = 0.0;  ///< on the sensor
     double allowance_mm2 = 0.0;
     double error_mm2 = 0.0;  ///< L1 distance of the two samplings on the sensor
-    SamplingLevel level;     ///< of the finer one, which is the picture
+    int level = 0;           ///< of the finer one, which is the picture
+    SamplingLevel sampling;  ///< what that level is
     std::size_t rays = 0;
     bool converged = true;     ///< false: the finest level was reached before the allowance
     std::vector<float> layer;  ///< irradiance, row by row, if asked for

@@ -84,16 +84,12 @@ TEST(RandomRaysSlow, AgreeWithTheReferenceOnEveryBundledLens) {
         const double field_deg =
             0.4 * deg_from_rad(std::atan(0.5 * lens.sensor.width_mm /
                                          lens.published.efl_mm.value_or(lens.sensor.width_mm)));
-        const Compared both = compared(lens, {field_deg, 90.0}, 1'500'000 / ghosts, 0.02);
+        const Compared both = compared(lens, {field_deg, 90.0}, 800'000 / ghosts, 0.04);
         const RayAgreement found = agreement(both);
         EXPECT_GT(found.blocks, 10U) << lens.name;
         EXPECT_LE(found.deviation, farthest_deviation)
             << lens.name << ": chi² " << found.chi2 << " of " << found.blocks << " blocks";
-        EXPECT_NEAR(found.flux_ratio, 1.0, 3.5 * found.flux_ratio_sigma + 0.02) << lens.name;
-        std::cout << lens.name << ": " << found.blocks << " blocks, chi² " << found.chi2
-                  << ", deviation " << found.deviation << ", flux " << found.flux_ratio << " ± "
-                  << found.flux_ratio_sigma << ", picture's share " << found.share_of_picture_error
-                  << "\n";
+        EXPECT_NEAR(found.flux_ratio, 1.0, 3.5 * found.flux_ratio_sigma + 0.04) << lens.name;
     }
 }
 
