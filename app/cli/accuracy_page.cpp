@@ -146,7 +146,9 @@ LogChart error_time_chart(const AccuracyCase& one) {
             series = chart.series.end() - 1;
         }
         std::string label;
-        if (point.knob == "tolerance" || point.knob == "share")
+        if (!point.resolved)
+            label.clear();  // they lie close together
+        else if (point.knob == "tolerance" || point.knob == "share")
             label = fmt::format("{:.3g} %", 100.0 * point.setting);
         else if (!point.knob.empty())
             label = fmt::format("{:.4g}", point.setting);

@@ -16,6 +16,7 @@ void add_ghosts(CLI::App& program);
 void add_render(CLI::App& program);
 void add_plan(CLI::App& program);
 void add_accuracy(CLI::App& program);
+void add_stability(CLI::App& program);
 void add_lenses(CLI::App& program);
 void add_convert(CLI::App& program);
 

@@ -31,7 +31,8 @@ pre{background:#f4f4f4;padding:9px 12px;white-space:pre-wrap;word-break:break-al
 
 /// A table's cell for people: four digits are what a designer compares.
 std::string shown_text(const Cell& cell) {
-    if (const auto* number = std::get_if<double>(&cell))
+    const auto* number = std::get_if<double>(&cell);
+    if (number != nullptr && std::isfinite(*number))
         return std::abs(*number) < 1e-12 ? "0" : fmt::format("{:.4g}", *number);
     return readable_text(cell);
 }

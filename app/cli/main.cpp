@@ -70,6 +70,7 @@ int run(std::vector<std::string> arguments) {
     add_render(program);
     add_plan(program);
     add_accuracy(program);
+    add_stability(program);
     add_lenses(program);
     add_convert(program);
     add_glasses(program);

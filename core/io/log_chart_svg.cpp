@@ -85,8 +85,8 @@ std::string log_chart_svg(const LogChart& chart) {
         svg += fmt::format(
             "<rect x=\"{}\" y=\"{:.1f}\" width=\"{}\" height=\"{:.1f}\" fill=\"#e4e4e4\"/>\n"
             "<text x=\"{:.1f}\" y=\"{:.1f}\" fill=\"#666\" font-size=\"11\">{}</text>\n",
-            left, at, plot_width, top + plot_height - at, left + 6.0,
-            std::min(at + 14.0, top + plot_height - 5.0), xml_text(chart.band_name));
+            left, at, plot_width, top + plot_height - at, left + 6.0, top + plot_height - 6.0,
+            xml_text(chart.band_name));
     }
     for (const double value : ticks_of(x))
         svg += fmt::format(

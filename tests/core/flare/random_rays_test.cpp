@@ -86,7 +86,7 @@ TEST(RandomRaysSlow, AgreeWithTheReferenceOnEveryBundledLens) {
                                          lens.published.efl_mm.value_or(lens.sensor.width_mm)));
         const Compared both = compared(lens, {field_deg, 90.0}, 800'000 / ghosts, 0.04);
         const RayAgreement found = agreement(both);
-        EXPECT_GT(found.blocks, 10U) << lens.name;
+        EXPECT_GT(found.blocks, 5U) << lens.name;
         EXPECT_LE(found.deviation, farthest_deviation)
             << lens.name << ": chi² " << found.chi2 << " of " << found.blocks << " blocks";
         EXPECT_NEAR(found.flux_ratio, 1.0, 3.5 * found.flux_ratio_sigma + 0.04) << lens.name;

@@ -1,0 +1,39 @@
+// A slice of ./dev properties.
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "tests/kits/random_lens.h"
+
+namespace ghostlight {
+namespace {
+
+LawCounts hold_laws(LensKind kind, std::uint64_t lenses) {
+    LawCounts counts;
+    for (std::uint64_t number = 1; number <= lenses; ++number) {
+        try {
+            for (const Violation& each : broken_laws(random_lens(kind, number), number, counts))
+                ADD_FAILURE() << "lens " << number << ": " << each.law << ": " << each.what;
+        } catch (const Error&) {
+            // Refused with words: that is a lawful end too.
+        }
+    }
+    return counts;
+}
+
+TEST(LensProperties, HoldForPlausibleLenses) {
+    const LawCounts counts = hold_laws(LensKind::plausible, 120);
+    EXPECT_GT(counts.energy, 3000U);
+    EXPECT_GT(counts.reversed, 200U);
+    EXPECT_GT(counts.unfolded, 200U);
+    EXPECT_GT(counts.scaled, 200U);
+}
+
+TEST(LensProperties, HoldForHostileLenses) {
+    const LawCounts counts = hold_laws(LensKind::hostile, 200);
+    EXPECT_GT(counts.finite, 50'000U);
+    EXPECT_GT(counts.films, 5000U);
+    EXPECT_GT(counts.energy, 1000U);
+}
+
+}  // namespace
+}  // namespace ghostlight
