@@ -96,7 +96,7 @@ Table accuracy_rows(const AccuracyRun& run) {
                                   one.closed_stops,
                                   p.method,
                                   p.knob,
-                                  p.setting,
+                                  std::isnan(p.setting) ? Cell() : Cell(p.setting),
                                   p.cold_ms,
                                   p.median_ms,
                                   p.p95_ms,
@@ -218,7 +218,11 @@ std::string chart_file(const AccuracyCase& one) {
 
 std::string accuracy_html(const AccuracyRun& run) {
     const Promises promises = promises_of(run);
-    std::string html = html_head("Accuracy of the flare") +
+    std::string html = fmt::format(
+                           "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+                           "<title>Accuracy of the flare</title><style>{}</style></head>"
+                           "<body>\n",
+                           html_style) +
                        fmt::format(
                            "<h1>Error against run time</h1>\n<p class=\"lead\">{}. {}. {}.</p>\n"
                            "<p>The error is Σ|picture − reference| / Σ reference over the ghosts' "

@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <variant>
 
 #include "core/io/chart_svg.h"
 
 namespace ghostlight::cli {
-namespace {
 
-constexpr auto style = R"(
+const std::string_view html_style = R"(
 :root{color-scheme:light}
 body{font:14px/1.5 system-ui,"Segoe UI",Helvetica,Arial,sans-serif;color:#222;max-width:1180px;margin:28px auto;padding:0 24px}
 h1{font-size:24px;margin:0}h2{font-size:17px;margin:34px 0 8px;border-bottom:1px solid #ccc;padding-bottom:4px}
@@ -29,22 +27,31 @@ pre{background:#f4f4f4;padding:9px 12px;white-space:pre-wrap;word-break:break-al
 @media print{body{margin:0;font-size:10px}h2{break-after:avoid}table,svg,img{break-inside:avoid}}
 )";
 
+std::string base64(std::string_view bytes) {
+    constexpr std::string_view letters =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const auto byte = [&](std::size_t k) {
+            return i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U;
+        };
+        const unsigned word = (byte(0) << 16) | (byte(1) << 8) | byte(2);
+        for (std::size_t k = 0; k < 4; ++k)
+            text += i + k <= bytes.size() ? letters[(word >> (18 - 6 * k)) & 63U] : '=';
+    }
+    return text;
+}
+
+namespace {
+
 /// A table's cell for people: four digits are what a designer compares.
 std::string shown_text(const Cell& cell) {
-    const auto* number = std::get_if<double>(&cell);
-    if (number != nullptr && std::isfinite(*number))
+    if (const auto* number = std::get_if<double>(&cell))
         return std::abs(*number) < 1e-12 ? "0" : fmt::format("{:.4g}", *number);
     return readable_text(cell);
 }
 
 }  // namespace
-
-std::string html_head(std::string_view title) {
-    return fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-        "<title>{}</title><style>{}</style></head><body>\n",
-        xml_text(title), style);
-}
 
 std::string html_table(const Table& table, const std::vector<HtmlColumn>& columns) {
     std::vector<std::string> names;

@@ -8,17 +8,19 @@
 
 namespace ghostlight::cli {
 
-// Parts of a self-contained HTML page.
+/// The style sheet of all pages: quiet, and fit for print.
+extern const std::string_view html_style;
 
-/// From the document's type to the opened body: title and style.
-std::string html_head(std::string_view title);
+/// For pictures inside of a page.
+std::string base64(std::string_view bytes);
 
 struct HtmlColumn {
     std::string column;  ///< the table's
     std::string title;   ///< with its unit
     double scale = 1.0;  ///< 100 where a share is shown in percent
 };
-/// The columns of a table, four digits a number.
+
+/// Some of a table's columns, numbers to four digits.
 std::string html_table(const Table& table, const std::vector<HtmlColumn>& columns);
 
 }  // namespace ghostlight::cli

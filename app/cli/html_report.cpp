@@ -21,21 +21,6 @@ namespace {
 constexpr int picture_width_px = 900;
 constexpr std::size_t ghosts_in_layout = 2;
 
-std::string base64(std::string_view bytes) {
-    constexpr std::string_view letters =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const auto byte = [&](std::size_t k) {
-            return i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U;
-        };
-        const unsigned word = (byte(0) << 16) | (byte(1) << 8) | byte(2);
-        for (std::size_t k = 0; k < 4; ++k)
-            text += i + k <= bytes.size() ? letters[(word >> (18 - 6 * k)) & 63U] : '=';
-    }
-    return text;
-}
-
 std::string key_values(const std::vector<LensQuantity>& quantities) {
     std::string html = "<div class=\"key\">";
     for (const LensQuantity& each : quantities)
@@ -175,14 +160,14 @@ std::string html_report(const HtmlReport& report) {
     const Prescription& lens = state.loaded.lens;
     const OpticalSystem system = compile(lens, reference_wavelength_nm(state.spectrum));
     const std::string title = xml_text(lens_heading(state.loaded));
-    std::string html =
-        html_head("Ghosts of " + lens_heading(state.loaded)) +
-        fmt::format(
-            "<h1>{}</h1>\n<p class=\"lead\">{}, field {} deg, azimuth {} deg, f/{:.3g}. All ghosts "
-            "on "
-            "the sensor over the image: {:.3g}.</p>\n",
-            title, xml_text(name(state.spectrum)), state.light.field_deg, state.light.azimuth_deg,
-            state.f_number, report.ghosts->veiling_fraction);
+    std::string html = fmt::format(
+        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+        "<title>Ghosts of {0}</title><style>{1}</style></head><body>\n<h1>{0}</h1>\n"
+        "<p class=\"lead\">{2}, field {3} deg, azimuth {4} deg, f/{5:.3g}. All ghosts on the "
+        "sensor "
+        "over the image: {6:.3g}.</p>\n",
+        title, html_style, xml_text(name(state.spectrum)), state.light.field_deg,
+        state.light.azimuth_deg, state.f_number, report.ghosts->veiling_fraction);
     html += "<h2>Flare</h2>\n" + picture_section(report);
     html += "<h2>Layout</h2>\n" + layout_section(report, system);
     html += "<h2>Ghosts</h2>\n" + ghosts_section(report);

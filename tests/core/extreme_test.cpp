@@ -57,7 +57,10 @@ TEST(ExtremeRadius, OfABillionDiffersFromAPlaneByTheClosedForm) {
         constexpr double rounding_mm = 4e-15;
         EXPECT_NEAR(at(radius_mm, 0.0) - plane_mm, -shift_mm, rounding_mm + 1e-4 * shift_mm);
         EXPECT_NEAR(at(-radius_mm, 0.0) - plane_mm, shift_mm, rounding_mm + 1e-4 * shift_mm);
-        EXPECT_NEAR(0.5 * (at(radius_mm, 0.0) + at(-radius_mm, 0.0)), plane_mm, rounding_mm);
+        // Second order, the same for both: the sag h² / 2R times the slope.
+        const double second_mm = shift_mm / z_mm * h_mm * h_mm / (2.0 * radius_mm);
+        EXPECT_NEAR(0.5 * (at(radius_mm, 0.0) + at(-radius_mm, 0.0)), plane_mm + second_mm,
+                    rounding_mm);
     }
     // The difference at 1e9, 1.7e-7 mm, is half of the last digit of 5 mm in float (2.4e-7 mm).
     EXPECT_NEAR(at(1e9, 0.0F), at(0.0, 0.0F), 5e-7F);
@@ -100,7 +103,7 @@ void expect_grazing(double field_deg, double tolerance) {
     constexpr double n = 1.5;
     const double cosine = cos_from_deg(field_deg);
     const Fresnel r = fresnel(1.0, n, cosine);
-    Prescription lens = lens_of({row(0.0, 1.0, n, 1e9)});
+    Prescription lens = lens_of({row(0.0, 1.0, n, 1e6)});
     const auto landed = land<T>(lens, {}, {field_deg, 90.0}, 0.0, 0.0);
     const double t = 1.0 - 0.5 * (r.r_s + r.r_p);
     EXPECT_NEAR(static_cast<double>(landed.weight), t, tolerance * t) << field_deg;
@@ -112,7 +115,7 @@ TEST(ExtremeIncidence, GrazingTransmitsWhatFresnelSays) {
         expect_grazing<double>(field, 1e-9);
         expect_grazing<float>(field, 2e-6 + 3e-7 / cos_from_deg(field));
     }
-    const auto along = land<double>(lens_of({row(0.0, 1.0, 1.5, 1e9)}), {}, {90.0, 90.0}, 0.0, 0.0);
+    const auto along = land<double>(lens_of({row(0.0, 1.0, 1.5, 1e6)}), {}, {90.0, 90.0}, 0.0, 0.0);
     EXPECT_TRUE(std::isfinite(along.weight));
     EXPECT_LE(std::abs(along.weight), 1e-12) << "along the surface nothing enters";
 }
@@ -241,7 +244,7 @@ TEST(ExtremeGap, OfNothingAndOfAKilometre) {
     EXPECT_NEAR(a.y_mm, b.y_mm, 1e-14);
     // A plate, then a kilometre of air.
     constexpr double far_mm = 1e6, field_deg = 3.0, n = 1.5, plate_mm = 4.0, v_mm = 0.5;
-    Prescription lens = lens_of({row(0.0, plate_mm, n, 1e7), row(0.0, far_mm, 1.0, 1e7)});
+    Prescription lens = lens_of({row(0.0, plate_mm, n, 1e6), row(0.0, far_mm, 1.0, 1e6)});
     const double theta = rad_from_deg(field_deg);
     const double y_mm = v_mm / std::cos(theta) +
                         plate_mm * std::tan(std::asin(std::sin(theta) / n)) +
@@ -358,18 +361,11 @@ TEST(ExtremeWavelength, EndsOfAGlassesRange) {
 /// A ghost whose paraxial focus lies on the sensor. Near the axis its rays land at k h³: within r
 /// there is light as r^(2/3), and the pixel on the axis, of side p, holds p^(2/3) / p² of it.
 TEST(ExtremeFocus, ThePixelOnTheAxisGrowsByTheCausticsLawAndTheFluxConverges) {
-    Prescription lens = lens_of({row(40.0, 6.0, 1.6), row(-30.0, 2.0, 1.7), row(-200.0, 5.0, 1.0),
-                                 row(0.0, 50.0, 1.0, 8.0)},
-                                3);
-    GhostPath path;
-    for (const GhostPath& each : two_reflection_ghosts(compile(lens, d_line_nm))) {
-        const double shift_mm = paraxial_ghost(compile(lens, d_line_nm), each).focus_from_sensor_mm;
-        if (lens.surfaces.back().thickness_mm + shift_mm < 1.0) continue;
-        lens.surfaces.back().thickness_mm += shift_mm;
-        path = each;
-        break;
-    }
-    ASSERT_FALSE(path.is_direct());
+    Prescription lens = lens_of({row(200.0, 4.0, 1.5, 10.0), row(-200.0, 60.0, 1.0, 10.0)});
+    const GhostPath path{{1, 0}};
+    lens.surfaces.back().thickness_mm +=
+        paraxial_ghost(compile(lens, d_line_nm), path).focus_from_sensor_mm;
+    ASSERT_GT(lens.surfaces.back().thickness_mm, 1.0);
     lens.sensor.width_mm = lens.sensor.height_mm = 4.0;
     auto picture = [&](int width_px, double disc_deg) {
         ReferenceRequest request;

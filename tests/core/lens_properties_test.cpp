@@ -1,6 +1,9 @@
 // A slice of ./dev properties.
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
 #include "core/error.h"
 #include "tests/kits/random_lens.h"
 
@@ -33,6 +36,17 @@ TEST(LensProperties, HoldForHostileLenses) {
     EXPECT_GT(counts.finite, 50'000U);
     EXPECT_GT(counts.films, 5000U);
     EXPECT_GT(counts.energy, 1000U);
+}
+
+TEST(LensProperties, CanBeBroken) {
+    LawCounts counts;
+    std::set<std::string> broken;
+    for (std::uint64_t number = 1; number <= 40; ++number)
+        for (const Violation& each :
+             broken_laws(random_lens(LensKind::plausible, number), number, counts, 1e6))
+            broken.insert(each.law);
+    for (const char* law : {"rotation", "unfolded", "reversal"})
+        EXPECT_TRUE(broken.contains(law)) << law;
 }
 
 }  // namespace

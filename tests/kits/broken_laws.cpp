@@ -29,10 +29,11 @@ constexpr double weight_tolerance = 1e-6;  ///< relative, where angles themselve
 
 class Laws {
    public:
-    Laws(const Prescription& lens, std::uint64_t number, LawCounts& counts)
+    Laws(const Prescription& lens, std::uint64_t number, LawCounts& counts, double strictness)
         : lens_(lens),
           dice_(number * 7919 + 13),
           counts_(counts),
+          unit_(unit / strictness),
           system_(compile(lens, d_line_nm)) {}
 
     std::vector<Violation> check() {
@@ -58,6 +59,7 @@ class Laws {
     const Prescription& lens_;
     Dice dice_;
     LawCounts& counts_;
+    double unit_;
     OpticalSystem system_;
     std::vector<Violation> found_;
 
@@ -146,7 +148,7 @@ class Laws {
             if (!surface.aspheric.empty())
                 aspheric_mm = std::max(aspheric_mm, surface.semi_diameter_mm);
         const double slope = std::hypot(condition.by_entrance[0], condition.by_entrance[3]);
-        sound.tolerance_mm = roundings * unit * condition.amplification_mm +
+        sound.tolerance_mm = roundings * unit_ * condition.amplification_mm +
                              1e-12 * aspheric_mm * (1.0 + slope) * (aspheric_mm > 0.0 ? 1e3 : 0.0);
         return sound;
     }
@@ -256,7 +258,7 @@ class Laws {
         double slope = 0.0;
         for (const double each : condition.by_entrance) slope = std::max(slope, std::abs(each));
         const double allowed_mm =
-            roundings * unit * (condition.amplification_mm + slope * length_of(from)) +
+            roundings * unit_ * (condition.amplification_mm + slope * length_of(from)) +
             slope * sound.tolerance_mm;
         if (condition.amplification_mm < hopeless && !(off_mm <= allowed_mm))
             broken("reversal", "{}: {} mm off, {} allowed", name(path), off_mm, allowed_mm);
@@ -350,8 +352,8 @@ LawCounts& LawCounts::operator+=(const LawCounts& other) {
 }
 
 std::vector<Violation> broken_laws(const Prescription& lens, std::uint64_t number,
-                                   LawCounts& counts) {
-    return Laws(lens, number, counts).check();
+                                   LawCounts& counts, double strictness) {
+    return Laws(lens, number, counts, strictness).check();
 }
 
 }  // namespace ghostlight

@@ -53,8 +53,9 @@ struct LawCounts {
 /// - the lens at 1024 times its size moves every ray by the same factor, exactly;
 /// - turning the light about the axis turns the ray; mirroring it mirrors the ray;
 /// - a ghost is the ordinary trace of its unfolded lens, by other formulas in long double.
-/// Tolerances follow each ray's own amplification of rounding.
+/// Tolerances follow each ray's own amplification of rounding, times `strictness`'s inverse: at a
+/// million, rounding itself breaks the laws, which shows that they can be broken.
 std::vector<Violation> broken_laws(const Prescription& lens, std::uint64_t number,
-                                   LawCounts& counts);
+                                   LawCounts& counts, double strictness = 1.0);
 
 }  // namespace ghostlight
