@@ -51,19 +51,30 @@ StabilityCase measured(const LoadedLens& loaded, const LightDirection& light,
 
 Table rows_of(const std::vector<StabilityCase>& cases, std::size_t top) {
     Table table;
-    table.columns = {"lens",         "field_deg",       "ghost",        "rays",
-                     "position_px",  "position_rms_px", "predicted_px", "amplification_mm",
-                     "weight_worst", "weight_rms",      "fates_differ", "averaging_error",
-                     "flux_mm2",     "ill_conditioned"};
+    table.columns = {"lens",
+                     "field_deg",
+                     "ghost",
+                     "rays",
+                     "landed",
+                     "position_px",
+                     "position_rms_px",
+                     "predicted_px",
+                     "amplification_mm",
+                     "weight_worst",
+                     "weight_rms",
+                     "fates_differ",
+                     "averaging_error",
+                     "flux_mm2",
+                     "ill_conditioned"};
     for (const StabilityCase& one : cases)
         for (std::size_t k = 0; k < one.ghosts.size() && (top == 0 || k < top); ++k) {
             const PathStability& g = one.ghosts[k];
             table.rows.push_back(
                 {one.lens, one.field_deg, name(g.path, one.surface_count),
-                 static_cast<std::int64_t>(g.rays), one.px(g.position_worst_mm),
-                 one.px(g.position_rms_mm), one.px(float_rounding * g.amplification_mm),
-                 g.amplification_mm, g.weight_worst, g.weight_rms, g.fates_differ,
-                 g.averaging_error, g.flux_mm2,
+                 static_cast<std::int64_t>(g.rays), static_cast<std::int64_t>(g.landed),
+                 one.px(g.position_worst_mm), one.px(g.position_rms_mm),
+                 one.px(float_rounding * g.amplification_mm), g.amplification_mm, g.weight_worst,
+                 g.weight_rms, g.fates_differ, g.averaging_error, g.flux_mm2,
                  std::string(is_ill_conditioned(g, one.sensor_width_mm) ? "yes" : "no")});
         }
     return table;
@@ -102,8 +113,10 @@ std::string markdown(const std::vector<StabilityCase>& cases, const std::string&
     std::string text = fmt::format(
         "# Stability\n\nMade by `{}`. Nothing here is written by hand.\n\n"
         "## Single against double precision\n\n"
-        "The same rays in both, on a grid over where each ghost enters; only those that pass. "
-        "Positions in pixels of a\nsensor 1280 wide. *Predicted* is 2⁻²⁴ times the largest "
+        "The same rays in both, on a grid over where each ghost enters: those that pass, for "
+        "positions "
+        "those that also land\nwithin the circle around the sensor, in pixels of a sensor 1280 "
+        "wide. *Predicted* is 2⁻²⁴ times the largest "
         "amplification: the root of the sum of squares, over all\nmeetings of the path, of the "
         "derivatives of the sensor point by position and direction there (automatic), times\n"
         "their sizes. A ghost is ill-conditioned where either is above {} px.\n\n"

@@ -115,41 +115,46 @@ PathStability stability(const OpticalSystem& system, const BeamFrame& frame,
     full.v_mm.assign(single.v_mm.begin(), single.v_mm.end());
     trace_bundle(exact, frame, Weights::polarised, full);
     trace_bundle(trace_path<float>(system, path), frame, Weights::polarised, single);
-    std::vector<std::size_t> passing;
+    const double reach_mm = 0.5 * std::hypot(system.sensor_width_mm, system.sensor_height_mm);
+    std::vector<std::size_t> landed;
     double squares = 0.0, weight_squares = 0.0, carried = 0.0, averaged = 0.0;
-    std::size_t differ = 0, compared = 0;
+    std::size_t differ = 0, compared = 0, compared_weights = 0;
     for (std::size_t i = 0; i < full.size(); ++i) {
         const bool in_full = passes(system, full, i), in_single = passes(system, single, i);
         differ += in_full != in_single ? 1 : 0;
         if (!in_full) continue;
-        passing.push_back(i);
+        ++result.rays;
         carried += full.weight[i];
         averaged += full.weight_average[i];
+        const bool lands = std::hypot(full.x_mm[i], full.y_mm[i]) <= reach_mm;
+        if (lands) landed.push_back(i);
         if (!in_single) continue;
-        ++compared;
-        const double off_mm = std::hypot(static_cast<double>(single.x_mm[i]) - full.x_mm[i],
-                                         static_cast<double>(single.y_mm[i]) - full.y_mm[i]);
-        squares += off_mm * off_mm;
-        result.position_worst_mm = std::max(result.position_worst_mm, off_mm);
+        if (lands) {
+            ++compared;
+            const double off_mm = std::hypot(static_cast<double>(single.x_mm[i]) - full.x_mm[i],
+                                             static_cast<double>(single.y_mm[i]) - full.y_mm[i]);
+            squares += off_mm * off_mm;
+            result.position_worst_mm = std::max(result.position_worst_mm, off_mm);
+        }
         if (!(full.weight[i] > 0.0)) continue;
+        ++compared_weights;
         const double off = std::abs(static_cast<double>(single.weight[i]) / full.weight[i] - 1.0);
         weight_squares += off * off;
         result.weight_worst = std::max(result.weight_worst, off);
     }
-    result.rays = passing.size();
-    if (passing.empty()) return result;
-    if (compared > 0) {
-        result.position_rms_mm = std::sqrt(squares / static_cast<double>(compared));
-        result.weight_rms = std::sqrt(weight_squares / static_cast<double>(compared));
-    }
-    result.fates_differ = static_cast<double>(differ) / static_cast<double>(passing.size());
+    if (result.rays == 0) return result;
+    result.landed = landed.size();
+    if (compared > 0) result.position_rms_mm = std::sqrt(squares / static_cast<double>(compared));
+    if (compared_weights > 0)
+        result.weight_rms = std::sqrt(weight_squares / static_cast<double>(compared_weights));
+    result.fates_differ = static_cast<double>(differ) / static_cast<double>(result.rays);
     result.averaging_error = carried > 0.0 ? averaged / carried - 1.0 : 0.0;
     result.flux_mm2 = carried * pupil.box.area_mm2() / (grid_cells * grid_cells);
     const auto jets = trace_path<Jet>(system, path);
-    const std::size_t stride = std::max<std::size_t>(1, passing.size() / conditioned_rays);
-    for (std::size_t k = 0; k < passing.size(); k += stride) {
+    const std::size_t stride = std::max<std::size_t>(1, landed.size() / conditioned_rays);
+    for (std::size_t k = 0; k < landed.size(); k += stride) {
         const RayCondition condition =
-            condition_of(jets, frame, full.u_mm[passing[k]], full.v_mm[passing[k]]);
+            condition_of(jets, frame, full.u_mm[landed[k]], full.v_mm[landed[k]]);
         if (condition.valid)
             result.amplification_mm = std::max(result.amplification_mm, condition.amplification_mm);
     }

@@ -32,12 +32,13 @@ RayCondition ray_condition(const OpticalSystem& system, const GhostPath& path,
 /// How well one ghost can be traced in single precision, and what averaging its polarisation costs.
 struct PathStability {
     GhostPath path;
-    std::size_t rays = 0;  ///< that pass in double: what follows is over these
+    std::size_t rays = 0;    ///< that pass in double: weights are compared over these
+    std::size_t landed = 0;  ///< of them, within the circle around the sensor: for positions
     double position_worst_mm = 0.0, position_rms_mm = 0.0;  ///< float against double
     double weight_worst = 0.0, weight_rms = 0.0;            ///< relative, where they have a weight
     /// Rays that pass in one precision only, of those that pass in double.
     double fates_differ = 0.0;
-    double amplification_mm = 0.0;  ///< largest of some of the rays
+    double amplification_mm = 0.0;  ///< largest of some of the rays that land there
     /// (R_s + R_p) / 2 at every surface over the polarisation carried, flux over flux, − 1.
     double averaging_error = 0.0;
     double flux_mm2 = 0.0;  ///< of the grid's rays, for ranking
