@@ -14,6 +14,8 @@ void add_coatings(CLI::App& program);
 void add_glasses(CLI::App& program);
 void add_ghosts(CLI::App& program);
 void add_render(CLI::App& program);
+void add_synth(CLI::App& program);
+void add_fit(CLI::App& program);
 void add_plan(CLI::App& program);
 void add_lenses(CLI::App& program);
 void add_convert(CLI::App& program);

@@ -68,6 +68,7 @@ int run(std::vector<std::string> arguments) {
     add_coating(program);
     add_ghosts(program);
     add_render(program);
+    add_synth(program);
     add_plan(program);
     add_lenses(program);
     add_convert(program);
