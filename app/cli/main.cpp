@@ -69,6 +69,7 @@ int run(std::vector<std::string> arguments) {
     add_ghosts(program);
     add_render(program);
     add_synth(program);
+    add_fit(program);
     add_plan(program);
     add_lenses(program);
     add_convert(program);

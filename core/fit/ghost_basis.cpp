@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/flare/flare_scene.h"
 #include "core/ghosts/cells.h"
@@ -17,8 +18,9 @@ namespace {
 constexpr int look_cells = 24;   ///< of the first look at where a bundle lands
 constexpr int split_cells = 4;   ///< across a singular cell
 constexpr int most_cells = 224;  ///< across
-/// Of a sample: with cells this small, two triangles each, the spline's aliases are below 1e-3.
-constexpr double cell_size = 0.55;
+/// Of a sample. At one cell a sample the spline's aliases vanish, and two triangles a cell halve
+/// them beside that; pieces at a rim are cut finer.
+constexpr double cell_size = 0.9, rim_size = 0.45;
 constexpr double color_margin = 0.04;  ///< of a pupil's breadth, shared by wavelengths
 /// Samples: colours that are closer than this fall together, since the spline blurs them.
 constexpr double merged_colors = 0.02;
@@ -292,42 +294,56 @@ GhostPieces ghost_pieces(const FitScene& scene, const GhostPath& path, const Lig
         else
             for (std::size_t node = 0; node < scene.geometry.size(); ++node) nodes.push_back(node);
     }
-    pieces.u_mid_mm = 0.5 * (box.u0_mm + box.u1_mm);
-    pieces.u_half_mm = 0.5 * (box.u1_mm - box.u0_mm);
-    pieces.v_mid_mm = 0.5 * (box.v0_mm + box.v1_mm);
-    pieces.v_half_mm = 0.5 * (box.v1_mm - box.v0_mm);
-    // Mirrored halves weigh alike about the meridional plane, u = 0.
-    const double largest_u_mm = std::max(std::abs(box.u0_mm), std::abs(box.u1_mm));
-    pieces.u_mid_mm = 0.0;
-    pieces.u_half_mm = std::max(largest_u_mm, 1e-9);
-    std::vector<std::array<double, 3>> strata(strata_u * strata_v, {0, 0, 0});
     for (const std::size_t node : nodes) {
         const SplitGrid<float> grid =
             traced_grid(scene, scene.geometry[node], path, frame, box, cells);
         pieces.traced += grid.rays();
         auto& list = pieces.at_node.emplace_back();
         for_each_piece(grid, [&](const BundleGrid<float>&, const Piece& whole) {
-            cut(whole, 1.3 * cell_size * pixels.pitch_mm, 8, [&](const Piece& piece) {
-                BundlePiece middle = middle_of(piece);
-                if (!matters(middle, pixels)) return;
-                const double u_mm = middle.u, v_mm = middle.v;
-                middle.u = u_mm / pieces.u_half_mm;
-                middle.v = (v_mm - pieces.v_mid_mm) / pieces.v_half_mm;
-                list.push_back(middle);
-                if (node != scene.main) return;
-                const int i =
-                    std::min(strata_u - 1, static_cast<int>(std::abs(middle.u) * strata_u));
-                const int j = std::clamp(static_cast<int>(0.5 * (middle.v + 1.0) * strata_v), 0,
-                                         strata_v - 1);
-                auto& stratum = strata[static_cast<std::size_t>(i * strata_v + j)];
-                stratum[0] += middle.area_mm2 * std::abs(u_mm);
-                stratum[1] += middle.area_mm2 * v_mm;
-                stratum[2] += middle.area_mm2;
+            const double largest_mm =
+                (whole.whole ? 1.5 * cell_size : rim_size) * pixels.pitch_mm;
+            cut(whole, largest_mm, 8, [&](const Piece& piece) {
+                const BundlePiece middle = middle_of(piece);
+                if (matters(middle, pixels)) list.push_back(middle);
             });
         });
     }
+    // The part of the pupil that matters, u and v from −1 to 1 over it. Mirrored halves weigh
+    // alike about the meridional plane, u = 0.
+    double u1 = 0.0, v0 = std::numeric_limits<double>::infinity(), v1 = -v0;
+    for (const auto& list : pieces.at_node)
+        for (const BundlePiece& piece : list) {
+            u1 = std::max(u1, std::abs(piece.u));
+            v0 = std::min(v0, piece.v);
+            v1 = std::max(v1, piece.v);
+        }
+    if (v0 > v1) {
+        pieces.at_node.clear();
+        return pieces;
+    }
+    pieces.u_half_mm = std::max(u1, 1e-9);
+    pieces.v_mid_mm = 0.5 * (v0 + v1);
+    pieces.v_half_mm = std::max(0.5 * (v1 - v0), 1e-9);
+    std::vector<std::array<double, 3>> strata(strata_u * strata_v, {0, 0, 0});
+    for (auto& list : pieces.at_node)
+        for (BundlePiece& piece : list) {
+            const double u_mm = piece.u, v_mm = piece.v;
+            piece.u = u_mm / pieces.u_half_mm;
+            piece.v = (v_mm - pieces.v_mid_mm) / pieces.v_half_mm;
+            const int i =
+                std::min(strata_u - 1, static_cast<int>(std::abs(piece.u) * strata_u));
+            const int j = std::clamp(static_cast<int>(0.5 * (piece.v + 1.0) * strata_v), 0,
+                                     strata_v - 1);
+            auto& stratum = strata[static_cast<std::size_t>(i * strata_v + j)];
+            stratum[0] += piece.area_mm2 * std::abs(u_mm);
+            stratum[1] += piece.area_mm2 * v_mm;
+            stratum[2] += piece.area_mm2;
+        }
+    double all = 0.0;
+    for (const auto& stratum : strata) all += stratum[2];
     for (const auto& [u, v, area] : strata) {
-        if (!(area > 0.0)) continue;
+        // A sliver of a stratum says nothing that its neighbours do not.
+        if (!(area > 1e-3 * all)) continue;
         pieces.ray_places.push_back({u / area, v / area});
         pieces.ray_areas.push_back(area);
     }

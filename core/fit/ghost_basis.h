@@ -81,7 +81,7 @@ struct GhostPieces {
     std::vector<std::vector<BundlePiece>> at_node;
     std::vector<std::array<double, 2>> ray_places;  ///< u, v in mm across the beam, for FilmRays
     std::vector<double> ray_areas;
-    double u_mid_mm = 0.0, u_half_mm = 1.0, v_mid_mm = 0.0, v_half_mm = 1.0;
+    double u_half_mm = 1.0, v_mid_mm = 0.0, v_half_mm = 1.0;  ///< of u, v from −1 to 1
     std::size_t traced = 0;
 };
 GhostPieces ghost_pieces(const FitScene& scene, const GhostPath& path, const LightDirection& light,
