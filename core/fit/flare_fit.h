@@ -40,8 +40,8 @@ struct FitRequest {
     /// Of the model, relative, of each ghost's light in each channel as a whole: spectral sampling,
     /// polarisation over the pupil, and a camera whose responses are no matrix of the CIE curves.
     double ghost_error = 0.002;
-    int across = 128;           ///< samples over the sensor's width
-    int spectral_samples = 16;  ///< of weights
+    int across = 96;            ///< samples over the sensor's width
+    int spectral_samples = 11;  ///< of weights
     int background_terms = 3;   ///< 0, 1, 3 or 6 polynomials a channel
     bool fit_place = true;      ///< shift, rotation, and the light's field
     bool fit_shading = true;

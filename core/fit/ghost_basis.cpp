@@ -5,22 +5,26 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/flare/flare_scene.h"
 #include "core/ghosts/cells.h"
 #include "core/ghosts/pupil.h"
+#include "core/ghosts/weighted_grid.h"
 #include "core/optics/trace_steps.h"
 #include "core/parallel.h"
 
 namespace ghostlight {
 namespace {
 
-constexpr int look_cells = 24;   ///< of the first look at where a bundle lands
-constexpr int split_cells = 4;   ///< across a singular cell
-constexpr int most_cells = 224;  ///< across
-/// Of a sample. At one cell a sample the spline's aliases vanish, and two triangles a cell halve
-/// them beside that; pieces at a rim are cut finer.
-constexpr double cell_size = 0.9, rim_size = 0.45;
+constexpr int look_cells = 24;  ///< of the first look at where a bundle lands
+constexpr int split_cells = 4;  ///< across a singular cell
+/// Cells across: as fine as keeps the map bilinear to this share of a sample.
+constexpr double bend = 0.03;
+constexpr int least_cells = 48, most_cells = 128;
+/// Of a sample: points this close leave aliases of the spline below 1e-3.
+constexpr double point_spacing = 0.45;
+constexpr int most_points = 24;        ///< across a cell
 constexpr double color_margin = 0.04;  ///< of a pupil's breadth, shared by wavelengths
 /// Samples: colours that are closer than this fall together, since the spline blurs them.
 constexpr double merged_colors = 0.02;
@@ -49,7 +53,6 @@ void move_stop(const OpticalSystem& system, const StopPlace& place, RayField<flo
 /// The box of the cells whose rays may pass and land on the frame; the largest such cell's size.
 struct Landing {
     PupilBox box;
-    double cell_mm = 0.0;  ///< on the sensor
     bool empty = true;
 };
 Landing landing(const RayField<float>& field, const PupilBox& box, const PixelFrame& frame) {
@@ -59,7 +62,6 @@ Landing landing(const RayField<float>& field, const PupilBox& box, const PixelFr
     const double bottom = frame.bottom_mm - margin_mm, top = -bottom;
     Landing found;
     int i0 = look_cells, i1 = -1, j0 = look_cells, j1 = -1;
-    std::vector<double> sizes;
     for (int j = 0; j < look_cells; ++j)
         for (int i = 0; i < look_cells; ++i) {
             const auto a = static_cast<std::size_t>(j * side + i);
@@ -89,7 +91,6 @@ Landing landing(const RayField<float>& field, const PupilBox& box, const PixelFr
             i1 = std::max(i1, i);
             j0 = std::min(j0, j);
             j1 = std::max(j1, j);
-            sizes.push_back(std::max(wx, wy));
         }
     if (i1 < 0) return found;
     auto u = [&](int i) {
@@ -101,15 +102,13 @@ Landing landing(const RayField<float>& field, const PupilBox& box, const PixelFr
     found.empty = false;
     found.box = {u(std::max(0, i0 - 1)), u(std::min(look_cells, i1 + 2)), v(std::max(0, j0 - 1)),
                  v(std::min(look_cells, j1 + 2))};
-    // The largest cells are often beside failing rays.
-    std::ranges::sort(sizes);
-    found.cell_mm = sizes[sizes.size() * 9 / 10];
     return found;
 }
 
 /// A piece, cut until it is small against a sample.
 template <class Take>
-void cut(const Piece& piece, double largest_mm, int depth, const Take& take) {
+void cut(const Piece& piece, const PixelFrame& frame, double largest_mm, int depth,
+         const Take& take) {
     double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
     for (int k = 0; k < piece.count; ++k) {
         x0 = std::min(x0, piece.corners[k].x_mm);
@@ -117,6 +116,9 @@ void cut(const Piece& piece, double largest_mm, int depth, const Take& take) {
         y0 = std::min(y0, piece.corners[k].y_mm);
         y1 = std::max(y1, piece.corners[k].y_mm);
     }
+    const double margin = (spline_reach + 0.5) * frame.pitch_mm;
+    const double right = -frame.left_mm + margin, top = -frame.bottom_mm + margin;
+    if (x0 > right || x1 < -right || y0 > top || y1 < -top) return;
     if (std::max(x1 - x0, y1 - y0) <= largest_mm || depth == 0) {
         take(piece);
         return;
@@ -129,7 +131,7 @@ void cut(const Piece& piece, double largest_mm, int depth, const Take& take) {
                                            return side * ((along_x ? c.x_mm : c.y_mm) - middle);
                                        });
             half.count >= 3)
-            cut(half, largest_mm, depth - 1, take);
+            cut(half, frame, largest_mm, depth - 1, take);
 }
 
 /// Middle and area of a polygon, fanned from its first corner.
@@ -159,6 +161,62 @@ bool matters(const BundlePiece& piece, const PixelFrame& frame) {
     const double margin = (spline_reach + 0.5) * frame.pitch_mm;
     return piece.area_mm2 > 0.0 && std::abs(piece.x_mm) < -frame.left_mm + margin &&
            std::abs(piece.y_mm) < -frame.bottom_mm + margin;
+}
+
+/// The points of a cell: a lattice of them where all of it passes, else its clipped halves, cut.
+template <class Take>
+void add_cell(const BundleGrid<float>& grid, int cell, const PixelFrame& frame,
+              std::vector<BundlePiece>& list, const Take& take) {
+    const auto side = static_cast<std::size_t>(grid.cells) + 1;
+    const std::size_t a = static_cast<std::size_t>(cell / grid.cells) * side +
+                          static_cast<std::size_t>(cell % grid.cells);
+    const std::size_t corners[4] = {a, a + 1, a + side, a + side + 1};
+    bool whole = true;
+    for (const auto& clearance : grid.field.clearances) {
+        bool any = false;
+        for (const std::size_t c : corners) {
+            any = any || clearance[c] >= 0.0F;
+            whole = whole && clearance[c] >= 0.0F;
+        }
+        if (!any) return;
+    }
+    if (!whole) {
+        for (int t = 2 * cell; t < 2 * cell + 2; ++t) {
+            const Piece piece = clip_triangle(grid.field, triangle_nodes(grid.cells, t), t);
+            if (piece.count >= 3) cut(piece, frame, point_spacing * frame.pitch_mm, 8, take);
+        }
+        return;
+    }
+    const Bundle<float>& rays = grid.field.rays;
+    double x[4], y[4], u[4], v[4];
+    for (int k = 0; k < 4; ++k) {
+        x[k] = static_cast<double>(rays.x_mm[corners[k]]);
+        y[k] = static_cast<double>(rays.y_mm[corners[k]]);
+        u[k] = static_cast<double>(rays.u_mm[corners[k]]);
+        v[k] = static_cast<double>(rays.v_mm[corners[k]]);
+    }
+    const auto [x0, x1] = std::minmax({x[0], x[1], x[2], x[3]});
+    const auto [y0, y1] = std::minmax({y[0], y[1], y[2], y[3]});
+    const double margin = (spline_reach + 0.5) * frame.pitch_mm;
+    const double right = -frame.left_mm + margin, top = -frame.bottom_mm + margin;
+    if (x0 > right || x1 < -right || y0 > top || y1 < -top) return;
+    auto points = [&](int p, int q, int r, int s) {
+        const double length =
+            std::max(std::hypot(x[q] - x[p], y[q] - y[p]), std::hypot(x[s] - x[r], y[s] - y[r]));
+        return std::clamp(static_cast<int>(std::ceil(length / (point_spacing * frame.pitch_mm))), 1,
+                          most_points);
+    };
+    const int along_u = points(0, 1, 2, 3), along_v = points(0, 2, 1, 3);
+    const double area = std::abs((u[1] - u[0]) * (v[2] - v[0])) / (along_u * along_v);
+    for (int j = 0; j < along_v; ++j)
+        for (int i = 0; i < along_u; ++i) {
+            const double f = (i + 0.5) / along_u, g = (j + 0.5) / along_v;
+            auto at = [&](const double* w) {
+                return std::lerp(std::lerp(w[0], w[1], f), std::lerp(w[2], w[3], f), g);
+            };
+            const BundlePiece point{at(x), at(y), at(u), at(v), area};
+            if (matters(point, frame)) list.push_back(point);
+        }
 }
 
 SplitGrid<float> traced_grid(const FitScene& scene, const OpticalSystem& system,
@@ -214,18 +272,56 @@ FilmRay film_ray(const FitScene& scene, const GhostPath& path, const BeamFrame& 
     return found;
 }
 
+/// Chebyshev nodes over the visible range, each with the colour of what a polynomial through the
+/// nodes takes of it: ∫ power × colour × Lagrange's polynomial. Exact for weights that are
+/// polynomials of the wavelength, so that a dozen nodes do for films; midpoints need thirty.
+void set_samples(const Spectrum& spectrum, int count, FitScene& scene) {
+    if (std::holds_alternative<Monochromatic>(spectrum)) {
+        scene.samples = sample(spectrum, 1);
+        scene.colors = sample_colors(spectrum, scene.samples);
+        return;
+    }
+    constexpr double low_nm = 400.0, high_nm = 700.0;
+    constexpr int fine = 600;
+    for (int k = 0; k < count; ++k) {
+        const double at = std::cos(std::numbers::pi * (2 * k + 1) / (2.0 * count));
+        scene.samples.push_back({0.5 * (low_nm + high_nm) - 0.5 * (high_nm - low_nm) * at, 0.0});
+    }
+    scene.colors.resize(scene.samples.size());
+    double power = 0.0;
+    Rgb white;
+    for (int i = 0; i < fine; ++i) {
+        const double nm = low_nm + (high_nm - low_nm) * (i + 0.5) / fine;
+        const double p = relative_power(spectrum, nm);
+        const Xyz xyz = color_matching(nm);
+        const Rgb rgb = linear_rec709({p * xyz.x, p * xyz.y, p * xyz.z});
+        power += p;
+        white = {white.r + rgb.r, white.g + rgb.g, white.b + rgb.b};
+        for (std::size_t k = 0; k < scene.samples.size(); ++k) {
+            const double own_nm = scene.samples[k].wavelength_nm;
+            double share = 1.0;
+            for (std::size_t other = 0; other < scene.samples.size(); ++other)
+                if (other != k)
+                    share *= (nm - scene.samples[other].wavelength_nm) /
+                             (own_nm - scene.samples[other].wavelength_nm);
+            scene.samples[k].weight += share * p;
+            Rgb& color = scene.colors[k];
+            color = {color.r + share * rgb.r, color.g + share * rgb.g, color.b + share * rgb.b};
+        }
+    }
+    for (std::size_t k = 0; k < scene.samples.size(); ++k) {
+        scene.samples[k].weight /= power;
+        Rgb& color = scene.colors[k];
+        color = {color.r / white.r, color.g / white.g, color.b / white.b};
+    }
+}
+
 }  // namespace
 
 FitScene fit_scene(const FittedLens& lens, const Spectrum& spectrum, int spectral_samples) {
     FitScene scene;
     scene.lens = lens;
-    // Films are not needed here: the flare's scene knows where geometry is traced.
-    scene.samples = sample(spectrum, spectral_samples);
-    const auto colors = sample_colors(spectrum, scene.samples);
-    for (std::size_t k = 0; k < scene.samples.size(); ++k) {
-        const double w = scene.samples[k].weight;
-        scene.colors.push_back({w * colors[k].r, w * colors[k].g, w * colors[k].b});
-    }
+    set_samples(spectrum, spectral_samples, scene);
     for (const double nm : geometry_wavelengths_nm(scene.samples))
         scene.geometry.push_back(compile(lens.lens, nm));
     scene.main = scene.geometry.size() / 2;
@@ -258,14 +354,10 @@ GhostPieces ghost_pieces(const FitScene& scene, const GhostPath& path, const Lig
     const Landing on = landing(look, wide, pixels);
     if (on.empty) return pieces;
     const PupilBox& box = on.box;
-    const double across_mm =
-        std::max(on.cell_mm * look_cells *
-                     std::max((box.u1_mm - box.u0_mm) / (wide.u1_mm - wide.u0_mm),
-                              (box.v1_mm - box.v0_mm) / (wide.v1_mm - wide.v0_mm)),
-                 pixels.pitch_mm);
+    const double reach_mm = std::hypot(2.0 * pixels.left_mm, 2.0 * pixels.bottom_mm);
     const int cells =
-        std::clamp(8 * static_cast<int>(std::ceil(across_mm / (cell_size * pixels.pitch_mm) / 8.0)),
-                   24, most_cells);
+        std::max(least_cells, cells_for_bend(probe_bundle(system, trace, frame, box),
+                                             bend * pixels.pitch_mm, reach_mm, most_cells));
     std::vector<std::size_t> nodes;
     if (main_only || scene.geometry.size() == 1) {
         nodes.push_back(scene.main);
@@ -299,14 +391,20 @@ GhostPieces ghost_pieces(const FitScene& scene, const GhostPath& path, const Lig
             traced_grid(scene, scene.geometry[node], path, frame, box, cells);
         pieces.traced += grid.rays();
         auto& list = pieces.at_node.emplace_back();
-        for_each_piece(grid, [&](const BundleGrid<float>&, const Piece& whole) {
-            const double largest_mm =
-                (whole.whole ? 1.5 * cell_size : rim_size) * pixels.pitch_mm;
-            cut(whole, largest_mm, 8, [&](const Piece& piece) {
-                const BundlePiece middle = middle_of(piece);
-                if (matters(middle, pixels)) list.push_back(middle);
-            });
-        });
+        auto take = [&](const Piece& piece) {
+            const BundlePiece middle = middle_of(piece);
+            if (matters(middle, pixels)) list.push_back(middle);
+        };
+        for (int cell = 0; cell < cells * cells; ++cell) {
+            const int split = grid.split_of_cell[static_cast<std::size_t>(cell)];
+            if (split < 0) {
+                add_cell(grid.base, cell, pixels, list, take);
+                continue;
+            }
+            const BundleGrid<float>& finer = grid.splits[static_cast<std::size_t>(split)];
+            for (int c = 0; c < finer.cells * finer.cells; ++c)
+                add_cell(finer, c, pixels, list, take);
+        }
     }
     // The part of the pupil that matters, u and v from −1 to 1 over it. Mirrored halves weigh
     // alike about the meridional plane, u = 0.
@@ -330,10 +428,9 @@ GhostPieces ghost_pieces(const FitScene& scene, const GhostPath& path, const Lig
             const double u_mm = piece.u, v_mm = piece.v;
             piece.u = u_mm / pieces.u_half_mm;
             piece.v = (v_mm - pieces.v_mid_mm) / pieces.v_half_mm;
-            const int i =
-                std::min(strata_u - 1, static_cast<int>(std::abs(piece.u) * strata_u));
-            const int j = std::clamp(static_cast<int>(0.5 * (piece.v + 1.0) * strata_v), 0,
-                                     strata_v - 1);
+            const int i = std::min(strata_u - 1, static_cast<int>(std::abs(piece.u) * strata_u));
+            const int j =
+                std::clamp(static_cast<int>(0.5 * (piece.v + 1.0) * strata_v), 0, strata_v - 1);
             auto& stratum = strata[static_cast<std::size_t>(i * strata_v + j)];
             stratum[0] += piece.area_mm2 * std::abs(u_mm);
             stratum[1] += piece.area_mm2 * v_mm;
