@@ -22,7 +22,7 @@ struct FitOptions {
     LensOptions lens;
     SpectrumOptions spectrum{.wavelength = {}, .spectrum = "D65"};
     std::string photos, lights = "auto", vary, out, page, masks, principal, rotation = "0",
-                        width_mm, left_out, loss = "cauchy", scale = "4", error = "0.5",
+                        width_mm, left_out, loss = "cauchy", scale = "4", error = "0.3",
                         across = "96", background = "3", starts = "6", suggest = "4", seed = "1";
     bool fixed_place = false, merge = false;
     OutputOptions output;

@@ -36,7 +36,7 @@ struct FitRequest {
     FitLoss loss = FitLoss::cauchy;
     double loss_scale = 4.0;  ///< in standard deviations of a sample
     /// Of the model, relative, of each sample: what is left of quadratures.
-    double model_error = 0.005;
+    double model_error = 0.003;
     /// Of the model, relative, of each ghost's light in each channel as a whole: spectral sampling,
     /// polarisation over the pupil, and a camera whose responses are no matrix of the CIE curves.
     double ghost_error = 0.002;

@@ -211,8 +211,11 @@ LightSpot find_light(const Photo& photo) {
         mean += static_cast<double>(value);
     }
     mean /= static_cast<double>(photo.pixels());
-    const double limit = std::min(photo.saturation, 0.5 * static_cast<double>(highest));
-    if (!(limit > 3.0 * mean) && !(static_cast<double>(highest) >= photo.saturation))
+    // What is clipped, or what is at least half as bright as the brightest: ghosts may be bright,
+    // but they do not clip where the light does not.
+    const bool clipped = static_cast<double>(highest) >= photo.saturation;
+    const double limit = clipped ? photo.saturation : 0.5 * static_cast<double>(highest);
+    if (!(limit > 3.0 * mean) && !clipped)
         fail(
             photo, "no light stands out in the photograph",
             fmt::format("brightest value {:.3g}, mean {:.3g}", highest, mean),
