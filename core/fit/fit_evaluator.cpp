@@ -76,8 +76,10 @@ std::vector<double> FitEvaluator::coating_values() const {
 }
 
 double FitEvaluator::gain(std::size_t photo, std::size_t channel) const {
-    return std::exp(views_[photo].log_gain_start[channel] +
-                    gain_prior * x[layout_.first_of(photo) + channel]);
+    const double* own = &x[layout_.first_of(photo)];
+    // Green's is the exposure; red and blue are balanced against it.
+    const double balance = channel == 1 ? 0.0 : balance_prior * own[channel];
+    return std::exp(views_[photo].log_gain_start + gain_prior * own[1] + balance);
 }
 
 void FitEvaluator::picture(bool slopes) {
@@ -92,22 +94,35 @@ void FitEvaluator::picture(bool slopes) {
 }
 
 void FitEvaluator::start_gains() {
+    for (std::size_t i = 0; i < views_.size(); ++i) x[layout_.first_of(i) + 1] = 0.0;
+    fit_gains();
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+        double& exposure = x[layout_.first_of(i) + 1];
+        views_[i].log_gain_start += gain_prior * exposure;
+        exposure = 0.0;
+    }
+}
+
+void FitEvaluator::fit_gains() {
     picture(false);
     for (std::size_t i = 0; i < views_.size(); ++i) {
         FitView& view = views_[i];
+        double log_gain[3];
         for (std::size_t c = 0; c < 3; ++c) {
             double above = 0.0, below = 0.0;
             for (std::size_t s = 0; s < view.data.samples(); ++s) {
                 if (!view.data.used[s]) continue;
                 const double y = view.data.value[3 * s + c], m = *pictures_[i].at(s, c);
-                const double sigma = view.scales[s].sigma(y) + 0.1 * std::abs(y);
+                const double sigma = view.scales[s].sigma(y);
                 above += y * m / (sigma * sigma);
                 below += m * m / (sigma * sigma);
             }
-            const double gain = below > 0.0 && above > 0.0 ? above / below : 1.0;
-            view.log_gain_start[c] = std::log(gain);
-            x[layout_.first_of(i) + c] = 0.0;
+            log_gain[c] = below > 0.0 && above > 0.0 ? std::log(above / below) : 0.0;
         }
+        double* own = &x[layout_.first_of(i)];
+        own[1] = (log_gain[1] - view.log_gain_start) / gain_prior;
+        own[0] = (log_gain[0] - log_gain[1]) / balance_prior;
+        own[2] = (log_gain[2] - log_gain[1]) / balance_prior;
     }
 }
 
@@ -156,7 +171,8 @@ void FitEvaluator::PrepareForEvaluation(bool jacobians, bool) {
                 for (std::size_t q = 0; q < moves.size(); ++q)
                     row[q < geometry ? coatings + q : place + q - geometry] =
                         inverse * scale * view.slopes[q][3 * s + c];
-                row[first + c] = inverse * scale * light * gain_prior;
+                row[first + 1] = inverse * scale * light * gain_prior;
+                if (c != 1) row[first + c] = inverse * scale * light * balance_prior;
                 if (layout_.shading)
                     row[layout_.shading_of(i)] = -inverse * gains[c] * light * r2 * shading_prior;
                 for (int t = 0; t < layout_.background_terms; ++t)

@@ -21,7 +21,7 @@ struct FitView {
     /// ∂ picture / ∂ (geometry parameters in units of their priors, then the place's unknowns).
     std::vector<std::vector<double>> slopes;
     double background_unit = 1.0;  ///< a typical level: the unit of background coefficients
-    double log_gain_start[3] = {};
+    double log_gain_start = 0.0;
 };
 
 /// Layout of the vector of unknowns, all in units of their priors about their starts: coatings,
@@ -49,8 +49,9 @@ struct FitLayout {
 };
 
 /// Widths of the priors of what is not of the lens.
-inline constexpr double gain_prior = 3.0;        ///< of ln gain: nothing is known
-inline constexpr double shading_prior = 0.3;     ///< of the light in the corners
+inline constexpr double gain_prior = 3.0;     ///< of ln exposure: nothing is known
+inline constexpr double balance_prior = 0.7;  ///< of ln red/green and ln blue/green: a factor of 2
+inline constexpr double shading_prior = 0.3;  ///< of the light in the corners
 inline constexpr double background_prior = 1.0;  ///< in units of the typical level
 inline constexpr double shift_prior_mm = 0.05;
 inline constexpr double rotation_prior_rad = 0.0035;  ///< 0.2°
@@ -76,6 +77,8 @@ class FitEvaluator final : public ceres::EvaluationCallback {
     std::vector<double> coating_values() const;
     /// Gains by least squares for the coatings as they stand.
     void start_gains();
+    /// The same without moving the prior's middle.
+    void fit_gains();
     double gain(std::size_t photo, std::size_t channel) const;
 
     const FitLayout& layout() const { return layout_; }

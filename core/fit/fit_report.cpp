@@ -183,13 +183,15 @@ void fill_photo(const FitOutcome& outcome, std::size_t i, FitReport& report) {
     for (std::size_t s = 0; s < view.data.samples(); ++s)
         for (std::size_t c = 0; c < 3 && view.data.used[s]; ++c)
             photo.chi2 += std::pow(photo.residuals[3 * s + c], 2);
-    auto error = [&](std::size_t at) {
-        const auto k = static_cast<Eigen::Index>(at);
-        return report.error_scale * std::sqrt(std::max(0.0, outcome.covariance(k, k)));
-    };
     for (std::size_t c = 0; c < 3; ++c) {
         photo.gain[c] = evaluator.gain(i, c);
-        photo.gain_error[c] = gain_prior * error(layout.first_of(i) + c);
+        const auto exposure = static_cast<Eigen::Index>(layout.first_of(i) + 1),
+                   own = static_cast<Eigen::Index>(layout.first_of(i) + c);
+        const double by = c == 1 ? 0.0 : balance_prior;
+        const double variance = gain_prior * gain_prior * outcome.covariance(exposure, exposure) +
+                                2.0 * gain_prior * by * outcome.covariance(exposure, own) +
+                                by * by * outcome.covariance(own, own);
+        photo.gain_error[c] = report.error_scale * std::sqrt(std::max(0.0, variance));
     }
     if (layout.shading) photo.shading = shading_prior * evaluator.x[layout.shading_of(i)];
     if (layout.place) {

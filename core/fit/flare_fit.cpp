@@ -28,7 +28,9 @@ constexpr double settled = 0.02;
 constexpr int most_linearisations = 4;
 constexpr double field_step_deg = 0.02;
 constexpr double geometry_step = 0.3;  ///< of a prior
-constexpr int start_iterations = 8, final_iterations = 30;
+constexpr int start_iterations = 8, final_iterations = 30, jump_iterations = 4;
+/// A jump must lower the cost by so much to be more than rounding.
+constexpr double least_gain = 0.5;
 
 struct Stopped {};
 
@@ -479,7 +481,7 @@ class Fit {
         std::mt19937_64 random(request_.seed);
         std::uniform_real_distribution<double> uniform(-1.0, 1.0);
         const std::vector<double> own = evaluator_->x;
-        std::vector<double> best = own;
+        std::vector<double> best = own, best_gains(views_.size(), 0.0);
         double lowest = std::numeric_limits<double>::infinity();
         const std::size_t count = layout_.coatings.size();
         for (int start = 0; start < std::max(1, request_.starts); ++start) {
@@ -498,51 +500,51 @@ class Fit {
             if (cost < lowest) {
                 lowest = cost;
                 best = evaluator_->x;
-                for (std::size_t i = 0; i < views_.size(); ++i)
-                    for (std::size_t c = 0; c < 3; ++c)
-                        best_gains_.resize(3 * views_.size()),
-                            best_gains_[3 * i + c] = views_[i].log_gain_start[c];
+                best_gains.clear();
+                for (const FitView& view : views_) best_gains.push_back(view.log_gain_start);
             }
             check_stop();
             tell(0.1 + 0.4 * (start + 1) / std::max(1, request_.starts));
         }
         evaluator_->x = best;
-        for (std::size_t i = 0; i < views_.size(); ++i)
-            for (std::size_t c = 0; c < 3; ++c)
-                views_[i].log_gain_start[c] = best_gains_[3 * i + c];
+        for (std::size_t i = 0; i < views_.size(); ++i) views_[i].log_gain_start = best_gains[i];
         solve(final_iterations);
-        for (int round = 0; round < 2; ++round) {
+        for (int round = 0; round < 3; ++round) {
             if (!jump_centers()) break;
             solve(final_iterations);
         }
     }
-    std::vector<double> best_gains_;
 
-    /// Tries each centre wavelength elsewhere, alone: local minima of one surface.
+    /// Tries each centre wavelength elsewhere, alone, with a few iterations for the others to
+    /// follow: local minima of one surface, of which a reflectance that rises to either side of its
+    /// centre has at least two.
     bool jump_centers() {
         bool improved = false;
         double lowest = cost_now();
+        std::vector<double> best = evaluator_->x;
         for (std::size_t p = 0; p < layout_.coatings.size(); ++p) {
             const FitParameter& each = layout_.coatings[p];
             if (each.kind != FitKind::center) continue;
-            const double before = evaluator_->x[p];
-            double best = before;
-            for (const double by_nm : {-160.0, -110.0, -60.0, 60.0, 110.0, 160.0}) {
+            const double before = best[p];
+            for (const double by_nm : {-100.0, -50.0, 50.0, 100.0}) {
                 const double at = before + by_nm / each.prior;
                 if (at * each.prior + each.start < each.lower ||
                     at * each.prior + each.start > each.upper)
                     continue;
+                evaluator_->x = best;
                 evaluator_->x[p] = at;
-                const double cost = cost_now();
-                if (cost < 0.999 * lowest) {
+                evaluator_->fit_gains();
+                const double cost = solve(jump_iterations);
+                if (cost < lowest - least_gain) {
                     lowest = cost;
-                    best = at;
+                    best = evaluator_->x;
                     improved = true;
+                    break;
                 }
             }
-            evaluator_->x[p] = best;
             check_stop();
         }
+        evaluator_->x = best;
         return improved;
     }
 

@@ -39,7 +39,7 @@ struct FitRequest {
     double model_error = 0.003;
     /// Of the model, relative, of each ghost's light in each channel as a whole: spectral sampling,
     /// polarisation over the pupil, and a camera whose responses are no matrix of the CIE curves.
-    double ghost_error = 0.002;
+    double ghost_error = 0.004;
     int across = 96;            ///< samples over the sensor's width
     int spectral_samples = 11;  ///< of weights
     int background_terms = 3;   ///< 0, 1, 3 or 6 polynomials a channel
