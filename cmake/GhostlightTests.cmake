@@ -23,16 +23,11 @@ function(ghostlight_test_group label)
 
     set(name ghostlight_${label}_tests)
     add_executable(${name} ${sources} ${arg_MAIN})
-    target_compile_definitions(
-        ${name}
-        PRIVATE
-            GHOSTLIGHT_TEST_DATA_DIR="${PROJECT_SOURCE_DIR}/tests/data"
-            GHOSTLIGHT_LENS_DIR="${PROJECT_SOURCE_DIR}/lenses"
-    )
     target_link_libraries(
         ${name}
         PRIVATE ${arg_LIBRARIES}
                 $<TARGET_NAME_IF_EXISTS:ghostlight_test_kits>
+                ghostlight_test_paths
                 nlohmann_json::nlohmann_json
                 fmt::fmt
                 GTest::gmock
@@ -44,9 +39,6 @@ function(ghostlight_test_group label)
         target_link_libraries(${name} PRIVATE GTest::gtest_main)
     endif()
     if(arg_PROGRAM)
-        target_compile_definitions(
-            ${name} PRIVATE GHOSTLIGHT_CLI_PATH="$<TARGET_FILE:${arg_PROGRAM}>"
-        )
         add_dependencies(${name} ${arg_PROGRAM})
     endif()
 

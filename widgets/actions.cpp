@@ -37,6 +37,8 @@ constexpr std::array texts = {
     ActionText{"edit.move_up", "Move Surface &Up", "Alt+Up", "Swap with the surface before"},
     ActionText{"edit.move_down", "Move Surface Do&wn", "Alt+Down", "Swap with the surface after"},
     ActionText{"edit.make_stop", "Make It the &Stop", "", "The chosen surface becomes the stop"},
+    ActionText{"edit.absorption", "Glasses A&bsorb", "",
+               "Internal transmittance by the glasses' catalogues; else glass is lossless", true},
     ActionText{"ghosts.copy", "&Copy Ghosts", "", "The chosen rows with every digit, for a sheet"},
     ActionText{"ghosts.clear", "Clear &Selection", "Esc", "Select no ghost"},
     ActionText{"ghosts.all", "Show &All", "", "List every ghost", true},

@@ -46,15 +46,20 @@ FlareView::~FlareView() { close_gl(); }
 void FlareView::set_image(std::shared_ptr<const FlareImage> image) {
     image_ = std::move(image);
     upload_pending_ = image_ != nullptr;
-    awaits_picture_ = false;
+    if (image_ == nullptr) waiting_for_ = Waiting::lens;
     software_picture_ = {};
     refresh();
 }
 
 void FlareView::set_light(const LightDirection& light, double efl_mm) {
     light_ = light;
-    awaits_picture_ = image_ == nullptr;
+    if (waiting_for_ == Waiting::lens) waiting_for_ = Waiting::picture;
     efl_mm_ = std::isfinite(efl_mm) && efl_mm != 0.0 ? efl_mm : 50.0;  // an afocal lens: any scale
+    refresh();
+}
+
+void FlareView::set_failed() {
+    waiting_for_ = Waiting::mending;
     refresh();
 }
 
@@ -134,8 +139,10 @@ void FlareView::paint_overlay(QPainter& painter) {
         painter.setPen(picture_palette().dim);
         painter.drawText(
             rect().adjusted(16, 16, -16, -16), Qt::AlignCenter | Qt::TextWordWrap,
-            awaits_picture_
-                ? tr("Tracing the first picture…")
+            waiting_for_ == Waiting::picture ? tr("Tracing the first picture…")
+            : waiting_for_ == Waiting::mending
+                ? tr("No flare yet: the lens cannot be traced as it stands.\nIt appears once what "
+                     "is wrong is mended.")
                 : tr("The flare appears here.\nOpen a lens file, or drop one on the window."));
         return;
     }

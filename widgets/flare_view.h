@@ -29,6 +29,8 @@ class FlareView : public GlView {
     void set_image(std::shared_ptr<const FlareImage> image);
     const FlareImage* image() const { return image_.get(); }
     void set_light(const LightDirection& light, double efl_mm);
+    /// The lens cannot be traced as it stands: says so where there is no picture.
+    void set_failed();
     void set_exposure_ev(double exposure_ev);
     double exposure_ev() const { return exposure_ev_; }
     double last_upload_ms() const { return last_upload_ms_; }
@@ -67,7 +69,8 @@ class FlareView : public GlView {
 
     std::shared_ptr<const FlareImage> image_;
     bool upload_pending_ = false;
-    bool awaits_picture_ = false;  ///< a lens is there, its picture not yet
+    enum class Waiting { lens, picture, mending };
+    Waiting waiting_for_ = Waiting::lens;  ///< while there is no picture
     LightDirection light_;
     double efl_mm_ = 50.0;
     double exposure_ev_ = 0.0;

@@ -136,9 +136,10 @@ void MainWindow::build_menus() {
     actions_.fill(*file, {"-", "file.save", "file.save_as", "-", "file.export_lens",
                           "file.export_ghost", "file.export_table", "file.export_exr",
                           "file.export_png", "-", "file.glass_folders", "-", "file.quit"});
-    actions_.add_menu(bar, "&Edit",
-                      {"edit.undo", "edit.redo", "-", "edit.insert", "edit.delete", "edit.move_up",
-                       "edit.move_down", "edit.make_stop", "-", "edit.mend_glass"});
+    actions_.add_menu(
+        bar, "&Edit",
+        {"edit.undo", "edit.redo", "-", "edit.insert", "edit.delete", "edit.move_up",
+         "edit.move_down", "edit.make_stop", "-", "edit.mend_glass", "edit.absorption"});
     actions_.add_menu(
         bar, "&Ghosts",
         {"ghosts.copy", "ghosts.clear", "-", "ghosts.all", "ghosts.above_3", "ghosts.above_2"});
@@ -267,8 +268,32 @@ void MainWindow::connect_actions() {
         apply_theme(*qApp, theme);
         scene_update_.start();
     });
+    connect_absorption();
     actions_.on("help.about", [this] { show_about(); });
     actions_.on("help.guide", [this] { show_guide(); });
+}
+
+void MainWindow::connect_absorption() {
+    QAction& absorb = actions_["edit.absorption"];
+    actions_.on("edit.absorption", [this, &absorb] {
+        Prescription lens = document_.lens();
+        lens.internal_transmittance = absorb.isChecked();
+        document_.edit_lens(lens,
+                            absorb.isChecked() ? "let glasses absorb" : "make glass lossless");
+    });
+    const auto follow = [this, &absorb] {
+        const Prescription& lens = document_.lens();
+        const bool is_known = std::ranges::any_of(lens.surfaces, [](const Surface& surface) {
+            return !surface.medium_after.transmittance.empty();
+        });
+        absorb.setChecked(lens.internal_transmittance);
+        absorb.setEnabled(is_known || lens.internal_transmittance);
+        absorb.setToolTip(is_known ? absorb.statusTip()
+                                   : "No glass of this lens has a table of internal transmittance: "
+                                     "open it with a catalogue (AGF) that has one");
+    };
+    connect(&document_, &Document::changed, this, follow);
+    follow();
 }
 
 void MainWindow::connect_reports() {
@@ -372,7 +397,7 @@ void MainWindow::show_failure(const QString& reason) {
     if (!show_unknown_glass()) {
         banner_->show_text("trace", reason);
     }
-    flare_->set_dimmed(true);
+    flare_->set_failed();
     ghosts_->set_failed();
 }
 

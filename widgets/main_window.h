@@ -73,6 +73,7 @@ class MainWindow : public QMainWindow {
     void connect_document();
     void connect_jobs();
     void connect_actions();
+    void connect_absorption();
     void connect_reports();
     void offer_recovery();
     void show_scene();

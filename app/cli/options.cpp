@@ -110,6 +110,19 @@ Coating parse_quarter_wave(std::string_view text, std::string_view expected) {
     return film;
 }
 
+void override_internal_transmittance(LoadedLens& loaded, std::string_view text) {
+    if (text != "on" && text != "off")
+        throw bad_value("--internal-transmittance", text, "on or off");
+    loaded.lens.internal_transmittance = text == "on";
+    const bool is_known = std::ranges::any_of(loaded.lens.surfaces, [](const Surface& surface) {
+        return !surface.medium_after.transmittance.empty();
+    });
+    if (text == "on" && !is_known)
+        loaded.notes.push_back({Note::Severity::warning, "--internal-transmittance",
+                                "no glass of this lens has a table of internal transmittance: all "
+                                "are lossless"});
+}
+
 // The stop opens no further than the lens lets it: say so when that is less than was asked for.
 void note_capped_stop(const Prescription& lens, Notes& notes) {
     const double clear = lens.surfaces.at(lens.stop.surface).semi_diameter_mm;
@@ -268,6 +281,9 @@ CLI::Option* add_lens(CLI::App& command, LensOptions& options) {
              "layer centred at NM nm (without INDEX of MgF2), a coating of the library, or\n"
              "measured reflectances; default: as the lens file says")
         ->group(group);
+    add_text(command, "--internal-transmittance", options.internal_transmittance, "on|off",
+             "whether glasses absorb as their catalogue says; default: as the lens file says")
+        ->group(group);
     return lens;
 }
 
@@ -287,6 +303,8 @@ LoadedLens load_lens(const LensOptions& options) {
         override_sensor_reflectance(loaded.lens.sensor, options.sensor_reflectance);
     if (!options.coating.empty())
         loaded.lens = with_air_coating(loaded.lens, parse_coating(options.coating));
+    if (!options.internal_transmittance.empty())
+        override_internal_transmittance(loaded, options.internal_transmittance);
     validate(loaded.lens);
     if (!options.f_number.empty() || !options.stop_semi_diameter.empty())
         note_capped_stop(loaded.lens, loaded.notes);

@@ -66,7 +66,8 @@ CLI::Option* add_text(CLI::App& command, const std::string& name, std::string& v
 
 /// LENS and what overrides it for one run.
 struct LensOptions {
-    std::string lens, config, f_number, stop_semi_diameter, sensor, sensor_reflectance, coating;
+    std::string lens, config, f_number, stop_semi_diameter, sensor, sensor_reflectance, coating,
+        internal_transmittance;
 };
 CLI::Option* add_lens(CLI::App& command, LensOptions& options);
 

@@ -25,6 +25,7 @@ FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threa
       surfaces_(turning_count(systems.front())) {
     const std::size_t table_size = static_cast<std::size_t>(nodes) * stride_;
     values_.assign(surfaces_ * tables_per_surface * table_size, 0.0F);
+    keep_absorption(systems);
     invisible_.assign(surfaces_, true);
     for (std::size_t s = 0; s < surfaces_; ++s)
         for (const OpticalSystem& system : systems)
@@ -83,6 +84,41 @@ FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threa
     });
 }
 
+void FilmTables::keep_absorption(const std::vector<OpticalSystem>& systems) {
+    std::vector<float> per_mm(surfaces_ * 2 * stride_, 0.0F);
+    bool any = false;
+    for (std::size_t s = 0; s < surfaces_; ++s)
+        for (std::size_t w = 0; w < systems.size(); ++w) {
+            const SurfaceAt& at = surface_at(systems[w], s);
+            per_mm[(s * 2) * stride_ + w] = static_cast<float>(at.absorption_before_per_mm);
+            per_mm[(s * 2 + 1) * stride_ + w] = static_cast<float>(at.absorption_after_per_mm);
+            any = any || at.absorption_before_per_mm > 0.0 || at.absorption_after_per_mm > 0.0;
+        }
+    if (any) absorption_per_mm_ = std::move(per_mm);
+}
+
+void FilmTables::absorb(const TracePath<float>& path, const Bundle<float>& rays,
+                        std::vector<float>& weights) const {
+    std::vector<const float*> per_mm;
+    for (const TraceStep<float>& step : path.steps) {
+        const auto side = static_cast<std::size_t>(step.surface) * 2 + (step.sense > 0.0F ? 0 : 1);
+        per_mm.push_back(absorption_per_mm_.data() + side * stride_);
+    }
+    // What follows the last row; a sensor that reflects is no row.
+    const auto last = static_cast<std::size_t>(path.steps.back().surface);
+    per_mm.push_back(absorption_per_mm_.data() + (last * 2 + 1) * stride_);
+    std::vector<float> depth(stride_);
+    for (std::size_t ray = 0; ray < rays.size(); ++ray) {
+        std::ranges::fill(depth, 0.0F);
+        for (std::size_t step = 0; step < per_mm.size(); ++step) {
+            const float length_mm = rays.lengths_mm[step * rays.cosine_stride + ray];
+            for (std::size_t w = 0; w < stride_; ++w) depth[w] += per_mm[step][w] * length_mm;
+        }
+        for (std::size_t w = 0; w < stride_; ++w)
+            weights[ray * stride_ + w] *= passed_share(depth[w]);
+    }
+}
+
 const float* FilmTables::table(std::size_t surface, bool forward, bool reflects) const {
     const std::size_t which =
         surface * tables_per_surface + (forward ? 0U : 2U) + (reflects ? 1U : 0U);
@@ -108,6 +144,8 @@ void FilmTables::weights(const TracePath<float>& path, const Bundle<float>& rays
                                    .wavelengths = stride_,
                                    .weights = weights.data()};
     GHOSTLIGHT_DISPATCH(spectral_weights, view);
+    if (path.absorbs && !absorption_per_mm_.empty() && !rays.lengths_mm.empty())
+        absorb(path, rays, weights);
 }
 
 }  // namespace ghostlight

@@ -27,15 +27,20 @@ class FilmTables {
     /// Wavelengths, padded; those that were given come first.
     std::size_t stride() const { return stride_; }
 
-    /// Weights of every ray of a bundle that kept its cosines, `stride()` values a ray.
+    /// Weights of every ray of a bundle that kept its cosines, `stride()` values a ray. What glass
+    /// absorbs is taken off where the bundle has its lengths.
     void weights(const TracePath<float>& path, const Bundle<float>& rays,
                  std::vector<float>& weights) const;
 
    private:
     std::size_t stride_ = 0, surfaces_ = 0;
     std::vector<float> values_;
-    std::vector<bool> invisible_;  ///< by surface: at no wavelength anything there
+    std::vector<float> absorption_per_mm_;  ///< by surface: before and after it; else empty
+    std::vector<bool> invisible_;           ///< by surface: at no wavelength anything there
 
+    void keep_absorption(const std::vector<OpticalSystem>& systems);
+    void absorb(const TracePath<float>& path, const Bundle<float>& rays,
+                std::vector<float>& weights) const;
     const float* table(std::size_t surface, bool forward, bool reflects) const;
 };
 

@@ -139,6 +139,11 @@ class ParaxialPainter {
         axis.u_mm = axis.v_mm = {0.0F};
         axis.cosine_stride = 1;
         axis.cosines.assign(trace.steps.size(), 1.0F);
+        if (trace.absorbs) {
+            for (const TraceStep<float>& step : trace.steps)
+                axis.lengths_mm.push_back(-step.sense * step.gap_mm);
+            axis.lengths_mm.push_back(-trace.sensor_gap_mm);
+        }
         std::vector<float> weights;
         scene_.films.weights(trace, axis, weights);
         std::array<double, C> sums{};

@@ -15,6 +15,25 @@ void run(const BundleView<T>& view) {
     GHOSTLIGHT_DISPATCH(trace_bundle_lanes, view);
 }
 
+/// What the media on the way leave of the light. Beyond a failure lengths mean nothing, and neither
+/// do weights.
+template <class T>
+void absorb(const TracePath<T>& path, const std::vector<T>& lengths_mm, std::size_t stride,
+            Bundle<T>& bundle) {
+    std::vector<T> depth(stride, T(0));
+    auto add = [&](T per_mm, std::size_t step) {
+        if (!(per_mm > T(0))) return;
+        for (std::size_t i = 0; i < stride; ++i) depth[i] += per_mm * lengths_mm[step * stride + i];
+    };
+    for (std::size_t k = 0; k < path.steps.size(); ++k) add(path.steps[k].absorption_per_mm, k);
+    add(path.sensor_absorption_per_mm, path.steps.size());
+    for (std::size_t i = 0; i < bundle.weight.size(); ++i) {
+        const T share = passed_share(depth[i]);
+        bundle.weight[i] *= share;
+        bundle.weight_average[i] *= share;
+    }
+}
+
 }  // namespace
 
 template <class T>
@@ -76,8 +95,15 @@ void trace_bundle(const TracePath<T>& path, const BeamFrame& frame, Weights weig
         bundle.cosines.resize(path.steps.size() * padded);
         view.cosines = bundle.cosines.data();
     }
+    std::vector<T> lengths_mm;
+    if (path.absorbs && weights != Weights::none) {
+        lengths_mm.resize((path.steps.size() + 1) * padded);
+        view.lengths = lengths_mm.data();
+    }
     view.weights = static_cast<int>(weights);
     run(view);
+    if (view.lengths != nullptr) absorb(path, lengths_mm, padded, bundle);
+    if (bundle.keep_cosines) bundle.lengths_mm = std::move(lengths_mm);
     for (auto* channel : {&bundle.u_mm, &bundle.v_mm, &bundle.x_mm, &bundle.y_mm, &bundle.weight,
                           &bundle.margin, &bundle.r_rel})
         channel->resize(count);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -8,6 +9,13 @@
 #include "core/optics/trace_path.h"
 
 namespace ghostlight {
+
+/// The share of light that an optical depth leaves: between nothing and all, whatever the depth of
+/// a ray that failed.
+template <class T>
+T passed_share(T depth) {
+    return depth > T(0) ? std::exp(-depth) : T(1);
+}
 
 /// How a bundle's weights are computed.
 enum class Weights {
@@ -42,6 +50,9 @@ struct Bundle {
     /// On request: cosines of incidence, step by step, each step's `cosine_stride` apart.
     std::vector<T> cosines;
     std::size_t cosine_stride = 0;
+    /// With the cosines, where the path absorbs: lengths of the way to each step and to the sensor,
+    /// mm, laid out like the cosines. Legs against the direction of travel are negative.
+    std::vector<T> lengths_mm;
 
     std::size_t size() const { return u_mm.size(); }
 };

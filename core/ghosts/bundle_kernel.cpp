@@ -58,7 +58,15 @@ namespace ghostlight::GHOSTLIGHT_JOIN(kernels_, GHOSTLIGHT_ISA) {
     GHOSTLIGHT_INLINE void pass(const BundleView<T>& b, std::size_t i, const TraceStep<T>& step,
                                 int crossing, int reflection, Packet<Lanes<T>>& p) {
         using V = Lanes<T>;
+        const Vec3<V> start = p.ray.position;
         const Meeting<V> meeting = meet(step, b.aspheric, p.margin, p.ray);
+        if (b.lengths != nullptr) {
+            const Vec3<V>& end = p.ray.position;
+            const Vec3<V> leg(V(end.x - start.x), V(end.y - start.y),
+                              V(end.z - start.z - step.gap_mm));
+            store(dot(leg, p.ray.direction),
+                  b.lengths + static_cast<std::size_t>(&step - b.steps) * b.count + i);
+        }
         narrow(p.margin, smaller(meeting.turned_margin,
                                  smaller(meeting.miss_margin, meeting.hemisphere_margin)));
         if (b.cosines != nullptr)
@@ -98,6 +106,7 @@ namespace ghostlight::GHOSTLIGHT_JOIN(kernels_, GHOSTLIGHT_ISA) {
         V margin = p.margin;
         narrow(margin, p.ray.direction.z);
         const V t = -(p.ray.position.z + b.sensor_gap_mm) / p.ray.direction.z;
+        if (b.lengths != nullptr) store(t, b.lengths + b.step_count * b.count + i);
         V x = p.ray.position.x + t * p.ray.direction.x;
         V y = p.ray.position.y + t * p.ray.direction.y;
         V weight = p.average;

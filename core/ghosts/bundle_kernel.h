@@ -26,6 +26,7 @@ struct BundleView {
     T* const* stop_v;
     T *reflectance[max_recorded_reflections], *onset[max_recorded_reflections];
     T* cosines;   ///< of incidence, `count` for each step; null when nobody asks
+    T* lengths;   ///< mm to each step and to the sensor, `count` for each; null when nobody asks
     int weights;  ///< Weights, as a number
 };
 

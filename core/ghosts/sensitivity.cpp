@@ -81,6 +81,13 @@ void seed(TracePath<Jet>& path, const Prescription& lens, const OpticalSystem& s
     }
 }
 
+/// Way along the ray from `start`, which was relative to the surface before, mm.
+double length_of(const Vec3<Jet>& start, double gap_mm, const RayAt<Jet>& ray) {
+    const Vec3<Jet>& end = ray.position;
+    return (end.x.a - start.x.a) * ray.direction.x.a + (end.y.a - start.y.a) * ray.direction.y.a +
+           (end.z.a - start.z.a - gap_mm) * ray.direction.z.a;
+}
+
 /// The weight of a ray with its derivatives by up to eight parameters.
 Jet weight_of(const TracePath<Jet>& path, const BeamFrame& frame, double u_mm, double v_mm,
               const std::vector<CoatingParameter>& parameters, std::size_t first) {
@@ -90,8 +97,11 @@ Jet weight_of(const TracePath<Jet>& path, const BeamFrame& frame, double u_mm, d
     JonesState<Jet> jones =
         jones_start<Jet>(Vec3<Jet>(Jet(frame.e1.x), Jet(frame.e1.y), Jet(frame.e1.z)));
     double by_reflectance[parameters_at_once] = {};
+    double depth = 0.0;
     for (const TraceStep<Jet>& step : path.steps) {
+        const Vec3<Jet> start = ray.position;
         const Meeting<Jet> meeting = meet(step, path.aspheric.data(), Jet(1.0), ray);
+        depth += step.absorption_per_mm.a * length_of(start, step.gap_mm.a, ray);
         const Vec3<Jet> before = ray.direction;
         turn(step, meeting, ray);
         if (step.invisible) continue;
@@ -106,7 +116,9 @@ Jet weight_of(const TracePath<Jet>& path, const BeamFrame& frame, double u_mm, d
                 by_reflectance[k] += 1.0 / share;
         }
     }
-    Jet weight = 0.5 * (jones.intensity(0) + jones.intensity(1));
+    const Jet to_sensor = -(ray.position.z + path.sensor_gap_mm) / ray.direction.z;
+    depth += path.sensor_absorption_per_mm.a * to_sensor.a;
+    Jet weight = 0.5 * passed_share(depth) * (jones.intensity(0) + jones.intensity(1));
     for (int k = 0; k < parameters_at_once; ++k) weight.v[k] += weight.a * by_reflectance[k];
     return weight;
 }

@@ -77,7 +77,7 @@ class Reader {
         // A name may hold blanks; the formula's number is the first word that is one and is
         // followed by the code.
         std::size_t formula = 2;
-        while (formula < line.words.size() && !real_number(line.words[formula])) ++formula;
+        while (formula < line.words.size() && !parse_number(line.words[formula])) ++formula;
         if (formula >= line.words.size())
             return drop(line, fmt::format("'{}' has no formula", shown(line)));
         std::string& name = draft_->glass.medium.name;
@@ -85,14 +85,14 @@ class Reader {
             name += (i > 1 ? " " : "") + std::string(line.words[i]);
         draft_->glass.where = line.where();
         draft_->glass.catalog = result_.name;
-        const double number = *real_number(line.words[formula]);
+        const double number = *parse_number(line.words[formula]);
         if (number != std::floor(number) || number < 1.0 || number > last_agf_formula)
             return drop(
                 line, fmt::format("{}: dispersion formula {} is not known; expected 1 to {}", name,
                                   line.words[formula], last_agf_formula));
         draft_->formula.formula = static_cast<int>(number);
         auto optional = [&](std::size_t word) {
-            return word < line.words.size() ? real_number(line.words[word]) : std::nullopt;
+            return word < line.words.size() ? parse_number(line.words[word]) : std::nullopt;
         };
         // 1 and 0 stand for "not given".
         if (const auto nd = optional(formula + 2); nd && *nd > 1.0) draft_->glass.listed_nd = nd;
@@ -106,7 +106,7 @@ class Reader {
         if (!draft_->usable) return;
         const std::size_t most = agf_coefficient_count(draft_->formula.formula);
         for (std::size_t i = 1; i < line.words.size(); ++i) {
-            const auto value = real_number(line.words[i]);
+            const auto value = parse_number(line.words[i]);
             if (!value)
                 return drop(line, fmt::format("{}: coefficient '{}' is not a number",
                                               draft_->glass.medium.name, excerpt(line.words[i])));
@@ -126,7 +126,7 @@ class Reader {
 
     void read_range(const WordLine& line) {
         if (line.words.size() < 3) return;
-        const auto least = real_number(line.words[1]), most = real_number(line.words[2]);
+        const auto least = parse_number(line.words[1]), most = parse_number(line.words[2]);
         if (!least || !most || !(*least >= 0.0) || !(*most > *least))
             return warn(line,
                         fmt::format("{}: '{}' is not a range of wavelengths",
@@ -138,8 +138,8 @@ class Reader {
 
     void read_transmittance(const WordLine& line) {
         if (line.words.size() < 4) return;
-        const auto um = real_number(line.words[1]), share = real_number(line.words[2]),
-                   mm = real_number(line.words[3]);
+        const auto um = parse_number(line.words[1]), share = parse_number(line.words[2]),
+                   mm = parse_number(line.words[3]);
         const bool usable =
             um && share && mm && *um > 0.0 && *share >= 0.0 && *share <= 1.0 && *mm > 0.0;
         if (usable) draft_->glass.medium.transmittance.push_back({nm_from_um(*um), *share, *mm});

@@ -133,7 +133,7 @@ class Reader {
         for (std::size_t i = 0; i < columns_.size(); ++i) {
             const Column& column = columns_[i];
             if (column.kind == Column::Kind::ignored) continue;
-            const auto number = real_number(parts[i]);
+            const auto number = parse_number(parts[i]);
             if (!number)
                 refuse(line.where(), "not a number", std::string(parts[i].substr(0, 40)),
                        "a number with a decimal point");

@@ -161,7 +161,7 @@ class Reader {
     std::vector<double> numbers(const WordLine& line, std::size_t first) const {
         std::vector<double> values;
         for (std::size_t i = first; i < line.words.size(); ++i) {
-            const auto value = real_number(line.words[i]);
+            const auto value = parse_number(line.words[i]);
             if (!value) return {};
             values.push_back(*value);
         }
@@ -188,13 +188,13 @@ class Reader {
         ListedLayer layer;
         layer.material = std::string(line.words.front());
         const auto thickness =
-            line.words.size() > 1 ? real_number(line.words[1]) : std::optional<double>();
+            line.words.size() > 1 ? parse_number(line.words[1]) : std::optional<double>();
         if (!thickness || !(*thickness >= 0.0))
             return drop(line, fmt::format("coating {}: '{}' is not 'material thickness'", name_,
                                           shown(line)));
         layer.thickness = *thickness;
         auto flag = [&](std::size_t word) {
-            return word < line.words.size() ? real_number(line.words[word]).value_or(-1.0) : 0.0;
+            return word < line.words.size() ? parse_number(line.words[word]).value_or(-1.0) : 0.0;
         };
         layer.in_um = flag(2) != 0.0;
         const double repeats = flag(3);

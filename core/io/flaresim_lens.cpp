@@ -19,7 +19,7 @@ constexpr std::string_view row_expected =
 
 std::optional<std::string_view> value_of(std::string_view line, std::string_view key) {
     if (line.size() <= key.size() || line[key.size()] != ':' ||
-        !same_word(line.substr(0, key.size()), key))
+        !is_same_name(line.substr(0, key.size()), key))
         return std::nullopt;
     return trimmed(line.substr(key.size() + 1));
 }
@@ -41,13 +41,13 @@ Coating coating_of(double layers, const Place& place, Notes& notes) {
 
 void refuse_type(std::string_view type, const Place& place) {
     for (const std::string_view known : {"sph", "spherical"})
-        if (same_word(type, known)) return;
+        if (is_same_name(type, known)) return;
     const bool is_cylinder = upper_case(type).starts_with("CYL");
-    place.refuse(is_cylinder                ? "a cylinder: its ghosts would be wrong here, where "
-                                              "every surface is one of revolution"
-                 : same_word(type, "toric") ? "a toroid: its ghosts would be wrong here, where "
-                                              "every surface is one of revolution"
-                                            : "not a known type of surface",
+    place.refuse(is_cylinder ? "a cylinder: its ghosts would be wrong here, where "
+                               "every surface is one of revolution"
+                 : is_same_name(type, "toric") ? "a toroid: its ghosts would be wrong here, where "
+                                                 "every surface is one of revolution"
+                                               : "not a known type of surface",
                  in_quotes(type), "sph");
 }
 
@@ -58,8 +58,8 @@ void read_row(std::span<const std::string_view> row, const Place& place, Importe
     if (row.size() > 6) refuse_type(row[6], place);
     ListedSurface listed;
     listed.place = place;
-    const bool is_stop = same_word(row[0], "stop");
-    if (!is_stop && !same_word(row[0], "inf") && !same_word(row[0], "infinity"))
+    const bool is_stop = is_same_name(row[0], "stop");
+    if (!is_stop && !is_same_name(row[0], "inf") && !is_same_name(row[0], "infinity"))
         listed.radius_mm = place.number(row[0], "a radius in mm, 0 or inf for flat, or stop");
     listed.thickness_mm = place.number(row[1], "a thickness in mm");
     const double index = place.number(row[2], "an index");
@@ -86,7 +86,8 @@ void read_row(std::span<const std::string_view> row, const Place& place, Importe
 
 bool is_flaresim_lens(std::string_view text) {
     for (const TextLine& line : text_lines(text.substr(0, 65536)))
-        if (same_word(trimmed(line.text.substr(0, line.text.find('#'))), "surfaces:")) return true;
+        if (is_same_name(trimmed(line.text.substr(0, line.text.find('#'))), "surfaces:"))
+            return true;
     return false;
 }
 
@@ -112,7 +113,7 @@ ImportedLens import_flaresim_lens(const FormatSource& source) {
             else if (!in_surfaces && !remark.empty() && remarks.size() < longest)
                 remarks += (remarks.empty() ? "" : "; ") + remark;
         } else if (!in_surfaces) {
-            if (same_word(line, "surfaces:")) {
+            if (is_same_name(line, "surfaces:")) {
                 in_surfaces = true;
                 surfaces_line = each.number;
             } else if (const auto name = value_of(line, "name")) {

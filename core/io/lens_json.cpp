@@ -193,6 +193,8 @@ LensFile lens_from_own_json(const JsonAt& root) {
     lens.name = optional_text(root, "name");
     lens.source = optional_text(root, "source");
     lens.notes = optional_text(root, "notes");
+    if (const auto absorbs = root.find("internal_transmittance"))
+        lens.internal_transmittance = absorbs->boolean();
     if (const auto published = root.find("published")) lens.published = read_published(*published);
 
     constexpr std::string_view rows = "an array of at least one surface";
@@ -215,8 +217,8 @@ LensFile lens_from_own_json(const JsonAt& root) {
                 read_configuration((*configurations)[i], lens.surfaces.size()));
     }
     keep_unknown(root,
-                 {"ghostlight_lens", "name", "source", "notes", "published", "stop", "sensor",
-                  "surfaces", "configurations"},
+                 {"ghostlight_lens", "name", "source", "notes", "internal_transmittance",
+                  "published", "stop", "sensor", "surfaces", "configurations"},
                  lens.unknown);
     validate_in_file(lens, root.file());
     result.notes = findings(lens);

@@ -115,6 +115,7 @@ std::string lens_to_json(const Prescription& lens) {
     Json root = {{"ghostlight_lens", lens_schema_version}, {"name", lens.name}};
     if (!lens.source.empty()) root["source"] = lens.source;
     if (!lens.notes.empty()) root["notes"] = lens.notes;
+    if (lens.internal_transmittance) root["internal_transmittance"] = true;
     if (lens.published != Published{}) root["published"] = published_json(lens.published);
     root["stop"] = stop_json(lens.stop);
     root["sensor"] =

@@ -100,13 +100,13 @@ void read_element(const pugi::xml_node& element, const LineCounter& lines, Impor
         place.refuse("an element behind the sensor", "a further element", "the sensor last");
     const auto type = field(element, "type", lines);
     if (!type) place.refuse("missing field", "nothing", "a type");
-    if (same_word(type->text, "sensor")) {
+    if (is_same_name(type->text, "sensor")) {
         has_sensor = true;
         note_read(result.notes, place.where, "the sensor");
         return;
     }
-    const bool is_stop = same_word(type->text, "apertureStop");
-    if (!is_stop && !same_word(type->text, "lensSpherical")) refuse_kind(*type);
+    const bool is_stop = is_same_name(type->text, "apertureStop");
+    if (!is_stop && !is_same_name(type->text, "lensSpherical")) refuse_kind(*type);
     ListedSurface listed;
     listed.place = place;
     listed.radius_mm = number(element, "radius", lines, "a radius in mm, 0 for flat").value_or(0.0);

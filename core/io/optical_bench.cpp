@@ -39,7 +39,7 @@ std::vector<std::size_t> positions_of(const BenchText& text, Notes& notes) {
         const BenchSurface& surface = text.surfaces[i];
         const bool is_last = i + 1 == text.surfaces.size();
         if (is_variable(surface) && text.variable(surface.thickness) == nullptr &&
-            !(is_last && (surface.thickness.empty() || same_word(surface.thickness, "Bf"))))
+            !(is_last && (surface.thickness.empty() || is_same_name(surface.thickness, "Bf"))))
             surface.place.refuse("the thickness is neither a number nor a variable distance",
                                  in_quotes(surface.thickness),
                                  "a number, or the name of a row in [variable distances]");
@@ -105,7 +105,7 @@ void add_surface(const BenchText& text, std::size_t index, std::size_t position,
     const BenchSurface& surface = text.surfaces[index];
     ListedSurface listed;
     listed.place = surface.place;
-    if (same_word(surface.radius, "AS")) {
+    if (is_same_name(surface.radius, "AS")) {
         if (!result.stop) {
             result.stop = index;
             listed.comment = "aperture stop";
@@ -114,13 +114,14 @@ void add_surface(const BenchText& text, std::size_t index, std::size_t position,
                          "a second aperture stop: the first is taken, this one is an opening",
                          true);
         }
-    } else if (same_word(surface.radius, "FS")) {
+    } else if (is_same_name(surface.radius, "FS")) {
         listed.comment = "field stop";
         note_read(result.notes, surface.place.where,
                   "a field stop: an opening that cuts rays at its clear radius");
-    } else if (same_word(surface.radius, "CG")) {
+    } else if (is_same_name(surface.radius, "CG")) {
         listed.comment = "cover glass";
-    } else if (!same_word(surface.radius, "Infinity") && !same_word(surface.radius, "-Infinity")) {
+    } else if (!is_same_name(surface.radius, "Infinity") &&
+               !is_same_name(surface.radius, "-Infinity")) {
         listed.radius_mm =
             surface.place.number(surface.radius, "a radius in mm, Infinity, AS, FS or CG");
     }

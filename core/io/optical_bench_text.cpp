@@ -33,7 +33,7 @@ std::string_view cell(const std::vector<std::string_view>& row, std::size_t i) {
 
 std::optional<double> optional_value(std::string_view word, const Place& place,
                                      std::string_view expected) {
-    if (word.empty() || same_word(word, "undefined")) return std::nullopt;
+    if (word.empty() || is_same_name(word, "undefined")) return std::nullopt;
     return place.number(word, expected);
 }
 
@@ -78,15 +78,15 @@ void Reader::enter(std::string_view line, const Place& place) {
 }
 
 void Reader::read_constant(const std::vector<std::string_view>& row, const Place& place) {
-    if (same_word(row[0], "AsphericalOddCount")) {
+    if (is_same_name(row[0], "AsphericalOddCount")) {
         constexpr std::string_view expected = "a count of odd terms, 0 to 20";
         const double count = place.number(cell(row, 1), expected);
         if (!(count >= 0.0 && count <= 20.0) || count != std::floor(count))
             place.refuse("not a usable count", fmt::format("{}", count), expected);
         text.odd_terms = static_cast<int>(count);
-    } else if (same_word(row[0], "AsphericalA2")) {
+    } else if (is_same_name(row[0], "AsphericalA2")) {
         text.has_square_term = true;
-    } else if (same_word(row[0], "Scaled")) {
+    } else if (is_same_name(row[0], "Scaled")) {
         note_noticed(notes, place.where,
                      fmt::format("the listing is scaled from its source by {} {}", cell(row, 1),
                                  cell(row, 2)));
@@ -103,9 +103,9 @@ void Reader::read_variable(const std::vector<std::string_view>& row, const Place
         place.refuse("too many positions", fmt::format("{}", row.size() - 1), "at most 200");
     for (std::size_t i = 1; i < row.size(); ++i) {
         std::optional<double> value;
-        if (same_word(row[i], "Infinity"))
+        if (is_same_name(row[i], "Infinity"))
             value = std::numeric_limits<double>::infinity();
-        else if (same_word(row[i], "-Infinity"))
+        else if (is_same_name(row[i], "-Infinity"))
             value = -std::numeric_limits<double>::infinity();
         else if (const auto other = text.variables.find(std::string(row[i]));
                  other != text.variables.end() && i - 1 < other->second.values.size())
@@ -133,7 +133,7 @@ void Reader::read_surface(std::string_view line, const Place& place) {
     surface.diameter_mm = optional_value(cell(row, 4), place, "a diameter in mm");
     const std::string_view sixth = cell(row, 5);
     // Some rows have the glass's name where Vd belongs.
-    if (sixth.empty() || parse_number(sixth) || same_word(sixth, "undefined"))
+    if (sixth.empty() || parse_number(sixth) || is_same_name(sixth, "undefined"))
         surface.vd = optional_value(sixth, place, "an Abbe number");
     else
         surface.glass = clipped(sixth, 60);
@@ -152,7 +152,7 @@ void Reader::read_asphere(std::string_view line, const Place& place) {
     BenchAsphere asphere;
     asphere.place = place;
     asphere.id = row[0];
-    if (!same_word(row[1], "Infinity") && !same_word(row[1], "-Infinity"))
+    if (!is_same_name(row[1], "Infinity") && !is_same_name(row[1], "-Infinity"))
         asphere.radius_mm = optional_value(row[1], place, "a radius");
     asphere.conic = optional_value(cell(row, 2), place, "a conic constant").value_or(0.0);
     for (std::size_t i = 3; i < row.size(); ++i)
@@ -167,7 +167,7 @@ void Reader::read(std::string_view line, const Place& place) {
     if (disabled) return;
     const auto row = cells(line);
     if (section == "DESCRIPTIVE DATA") {
-        if (same_word(row[0], "title"))
+        if (is_same_name(row[0], "title"))
             text.title = clipped(cell(row, 1), 300);
         else
             unused.add(row[0], place.where);
@@ -193,7 +193,7 @@ const BenchVariable* BenchText::variable(std::string_view name) const {
         return &exact->second;
     for (const auto& [full, row] : variables)
         if (full.size() > name.size() &&
-            same_word(std::string_view(full).substr(0, name.size()), name) &&
+            is_same_name(std::string_view(full).substr(0, name.size()), name) &&
             trimmed(std::string_view(full).substr(name.size())).starts_with('('))
             return &row;
     return nullptr;

@@ -79,7 +79,7 @@ Medium medium_of_parts(const OsloSurface& surface, Notes& notes) {
     if (parts.empty()) return {};
     std::string name;
     std::vector<double> numbers;
-    const bool is_model = same_word(parts[0], "MOD");
+    const bool is_model = is_same_name(parts[0], "MOD");
     for (std::size_t i = is_model ? 1 : 0; i < parts.size(); ++i) {
         if (const auto number = parse_number(parts[i]))
             numbers.push_back(*number);
@@ -271,7 +271,7 @@ bool is_oslo(std::string_view text) {
     bool begins = false;
     for_each_oslo_command(text.substr(0, 65536), {}, [&](const OsloCommand& command) {
         begins = begins || (command.word == "LEN" && !command.parts.empty() &&
-                            same_word(command.parts[0], "NEW"));
+                            is_same_name(command.parts[0], "NEW"));
         if (command.word == "NXT") ++blocks;
     });
     return begins || blocks > 1;

@@ -169,7 +169,7 @@ void Reader::read_aperture(const OsloCommand& command) {
     current.aperture_place = command.place;
     std::string_view value;
     for (const std::string& part : command.parts) {
-        if (same_word(part, "CHK"))
+        if (is_same_name(part, "CHK"))
             current.aperture_checked = true;
         else if (value.empty())
             value = part;

@@ -79,7 +79,7 @@ std::vector<double> numbers_of(const Source& source, const YAML::Node& entry,
     WordLines lines(node.Scalar());
     for (WordLine line; lines.next(line);)
         for (const std::string_view word : line.words) {
-            const auto number = real_number(word);
+            const auto number = parse_number(word);
             if (!number)
                 source.refuse(node.Mark(),
                               fmt::format("{}: '{}' is not a number", what, word.substr(0, 40)),
@@ -127,7 +127,7 @@ std::vector<SpectralTable> tables_of(const Source& source, const YAML::Node& ent
     for (WordLine line; lines.next(line);) {
         std::vector<double> row;
         for (const std::string_view word : line.words)
-            if (const auto number = real_number(word)) row.push_back(*number);
+            if (const auto number = parse_number(word)) row.push_back(*number);
         const auto file_line = data.Mark().line + 1 + static_cast<int>(line.number);
         if (row.size() != columns + 1 || row.size() != line.words.size() || !(row[0] > 0.0))
             throw Error({.problem = "not a row of the table",
@@ -171,7 +171,7 @@ void take_entry(const Source& source, const YAML::Node& entry, CataloguedGlass& 
         glass.medium.dispersion = std::move(dispersion);
     };
     if (type.starts_with("formula ")) {
-        const auto number = real_number(std::string_view(type).substr(8));
+        const auto number = parse_number(std::string_view(type).substr(8));
         if (!number || *number != std::floor(*number) || *number < 1.0 || *number > last_formula)
             source.refuse(entry["type"].Mark(), fmt::format("type '{}' is not known", type),
                           std::string(types));
@@ -224,7 +224,7 @@ GlassFile material(const Source& source, const std::string& text,
     if (const YAML::Node properties = root["PROPERTIES"]; properties && properties.IsMap()) {
         auto listed = [&](const char* key) {
             const YAML::Node value = properties[key];
-            return value && value.IsScalar() ? real_number(value.Scalar()) : std::nullopt;
+            return value && value.IsScalar() ? parse_number(value.Scalar()) : std::nullopt;
         };
         glass.listed_nd = listed("nd");
         glass.listed_vd = listed("Vd");

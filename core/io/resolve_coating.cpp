@@ -77,7 +77,7 @@ Note assumed(std::string text) {
 std::optional<ResolvedCoating> zemax_name(std::string_view name, double primary_nm) {
     const std::string key = upper_case(name);
     if (key.starts_with("I.")) {
-        const auto t = real_number(std::string_view(key).substr(1));
+        const auto t = parse_number(std::string_view(key).substr(1));
         if (!t || *t < 0.0 || *t > 1.0) return std::nullopt;
         return ResolvedCoating{
             ConstantReflectance{1.0 - *t, *t},

@@ -65,7 +65,7 @@ void PrivateGlasses::add(const SeqCommand& command, Notes& notes) {
         laurent_first || command.name.starts_with('\'') ? command.words.front().text : command.name;
     const std::size_t from = laurent_first || command.name.starts_with('\'') ? 1 : 0;
     const bool laurent = laurent_first || (command.words.size() > from &&
-                                           same_word(command.words[from].text, "LAU"));
+                                           is_same_name(command.words[from].text, "LAU"));
     const std::vector<double> numbers = numbers_of(command, from);
     Medium medium{clipped(name, 60), {}};
     if (laurent && !numbers.empty()) {

@@ -32,7 +32,7 @@ Medium medium_of(const StatedGlass& glass, const Place& place, Notes& notes) {
     if (glass.vd && !(*glass.vd <= 0.0 || (*glass.vd >= 1.0 && *glass.vd <= 1e6)))
         place.refuse("not a usable Abbe number", fmt::format("{}", *glass.vd),
                      "1 or more, 0 for none");
-    if (glass.name.empty() || same_word(glass.name, "air"))
+    if (glass.name.empty() || is_same_name(glass.name, "air"))
         return glass.nd ? numbered_glass({}, *glass.nd, glass.vd, place.where, notes) : Medium{};
     const NamedGlass named{glass.name, {}, glass.nd, glass.vd, place.where};
     if (!glass.nd) return resolve_glass(named, notes);

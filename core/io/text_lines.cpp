@@ -13,8 +13,6 @@ namespace {
 
 constexpr std::string_view blanks = " \t\v\f";
 
-char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
-
 }  // namespace
 
 void TextLines::Iterator::advance() {
@@ -52,10 +50,6 @@ std::string clipped(std::string_view text, std::size_t bytes) {
         text = text.substr(0, bytes);
     }
     return std::string(text);
-}
-
-bool same_word(std::string_view a, std::string_view b) {
-    return std::ranges::equal(a, b, [](char x, char y) { return upper(x) == upper(y); });
 }
 
 std::optional<double> parse_number(std::string_view word) {

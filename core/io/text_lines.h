@@ -55,9 +55,6 @@ std::string_view trimmed(std::string_view text);
 /// At most so many bytes of a UTF-8 text, whole characters only.
 std::string clipped(std::string_view text, std::size_t bytes);
 
-/// Equal but for the case of ASCII letters.
-bool same_word(std::string_view a, std::string_view b);
-
 /// A finite decimal number in the C locale, whatever the program's; a leading "+" and an exponent
 /// written with D are taken. Nothing for anything else, numbers out of range included.
 std::optional<double> parse_number(std::string_view word);

@@ -55,7 +55,7 @@ std::string unfolded_ghost(const Prescription& lens, const GhostPath& path, Note
 
 std::string unfolded_ghost(const Prescription& lens, const std::string& ghost,
                            const std::filesystem::path& file, Notes& notes) {
-    if (!same_word(file.extension().string(), ".zmx"))
+    if (!is_same_name(file.extension().string(), ".zmx"))
         throw Error({.problem = "an unfolded ghost has mirrors, which only .zmx holds",
                      .file = file.string(),
                      .where = {},

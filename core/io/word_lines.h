@@ -1,10 +1,11 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/io/text_lines.h"
 
 namespace ghostlight {
 
@@ -20,19 +21,15 @@ struct WordLine {
     std::string_view rest(std::size_t first_word) const;
 };
 
-/// Goes through the lines that have a word, LF or CRLF.
+/// Goes through the lines that have a word.
 class WordLines {
    public:
-    explicit WordLines(std::string_view text) : rest_(text) {}
+    explicit WordLines(std::string_view text) : at_(text) {}
     /// The next one, or false at the end of the text.
     bool next(WordLine& line);
 
    private:
-    std::string_view rest_;
-    std::size_t number_ = 0;
+    TextLines::Iterator at_;
 };
-
-/// A finite number in C notation, with or without a plus, nothing around it.
-std::optional<double> real_number(std::string_view word);
 
 }  // namespace ghostlight

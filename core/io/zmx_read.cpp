@@ -30,6 +30,10 @@ constexpr std::array units = {Unit{"MM", 1.0},     Unit{"CM", 10.0},   Unit{"IN"
 /// What programs write for infinity begins here, mm.
 constexpr double far_away_mm = 1e8;
 
+/// A wavelength as the file's decimals have it: 0.5875618 µm is 587.5618 nm, without the binary
+/// remainder of the conversion.
+double whole_digits(double nm) { return std::round(nm * 1e9) / 1e9; }
+
 class ZmxImport {
    public:
     explicit ZmxImport(const FormatSource& source) : file_(source.file.string()) {
@@ -162,7 +166,7 @@ class ZmxImport {
     }
 
     Medium medium(const ZmxGlass& glass, std::size_t row) {
-        if (same_word(glass.name, "MIRROR"))
+        if (is_same_name(glass.name, "MIRROR"))
             Place{file_, glass.where}.refuse("a mirror: lenses with mirrors cannot be traced here",
                                              fmt::format("surface {} is a MIRROR", row + 1),
                                              "refracting surfaces");
@@ -352,7 +356,7 @@ class ZmxImport {
                 continue;
             if (++count > 24) break;
             list += fmt::format("{}{:.6g}", list.empty() ? "" : ", ", nm_from_um(um));
-            if (zmx_.primary_wave == number) primary_nm_ = nm_from_um(um);
+            if (zmx_.primary_wave == number) primary_nm_ = whole_digits(nm_from_um(um));
         }
         if (list.empty()) return;
         note_left_out(

@@ -143,24 +143,28 @@ std::string describe(const Medium& medium) {
     return fmt::format("n {:.4f}", refractive_index(medium, d_line_nm));
 }
 
-double internal_transmittance(const Medium& medium, double wavelength_nm, double length_mm) {
-    if (medium.transmittance.empty()) return 1.0;
+double absorption_per_mm(const Medium& medium, double wavelength_nm) {
+    if (medium.transmittance.empty()) return 0.0;
     // A catalogue's 0 means less than it could print.
     constexpr double least_share = 1e-10;
-    SpectralTable absorption_per_mm;
+    SpectralTable absorption;
     // Several thicknesses at one wavelength: a thick piece tells small losses better, until too
     // little comes through.
     constexpr double telling_share = 0.1;
     for (const InternalTransmittance& at : medium.transmittance) {
         const double loss = -std::log(std::max(at.share, least_share)) / at.thickness_mm;
-        const bool again = !absorption_per_mm.empty() &&
-                           absorption_per_mm.back().wavelength_nm == at.wavelength_nm;
+        const bool again =
+            !absorption.empty() && absorption.back().wavelength_nm == at.wavelength_nm;
         if (!again)
-            absorption_per_mm.push_back({at.wavelength_nm, loss});
+            absorption.push_back({at.wavelength_nm, loss});
         else if (at.share >= telling_share)
-            absorption_per_mm.back().value = loss;
+            absorption.back().value = loss;
     }
-    return std::exp(-linear_at(absorption_per_mm, wavelength_nm) * length_mm);
+    return linear_at(absorption, wavelength_nm);
+}
+
+double internal_transmittance(const Medium& medium, double wavelength_nm, double length_mm) {
+    return std::exp(-absorption_per_mm(medium, wavelength_nm) * length_mm);
 }
 
 bool is_air(const Medium& medium) {

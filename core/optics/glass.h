@@ -89,8 +89,8 @@ struct InternalTransmittance {
 struct Medium {
     std::string name;
     Dispersion dispersion = ConstantIndex{};
-    /// By rising wavelength and thickness, as a catalogue lists it; empty: lossless. Not used in
-    /// the trace.
+    /// By rising wavelength and thickness, as a catalogue lists it; empty: lossless. Used where the
+    /// lens asks for it (Prescription::internal_transmittance).
     std::vector<InternalTransmittance> transmittance = {};
     bool operator==(const Medium&) const = default;
 };
@@ -107,8 +107,11 @@ std::optional<std::pair<double, double>> wavelength_range_nm(const Medium& mediu
 /// (nd − 1)/(nF − nC); infinity without dispersion.
 double abbe_number(const Medium& medium);
 
-/// The share that is left after `length_mm`, by the Beer–Lambert law; log τ per mm is linear
-/// between the listed wavelengths, and the nearest one counts beyond them. 1 without a table.
+/// The medium's absorption per mm, −ln τ: linear between the listed wavelengths, and the nearest
+/// one counts beyond them. 0 without a table.
+double absorption_per_mm(const Medium& medium, double wavelength_nm);
+
+/// The share that is left after `length_mm`, by the Beer–Lambert law. 1 without a table.
 double internal_transmittance(const Medium& medium, double wavelength_nm, double length_mm);
 
 /// Air by this project's convention: n = 1 at every wavelength.

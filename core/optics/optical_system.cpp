@@ -84,6 +84,11 @@ OpticalSystem as_listed(const Prescription& lens, double wavelength_nm) {
         at.n_before = at.film.n_in;
         at.n_after = at.film.n_out;
         at.reflects = !is_invisible(at.film);
+        if (lens.internal_transmittance) {
+            at.absorption_before_per_mm =
+                absorption_per_mm(medium_before(lens, row), wavelength_nm);
+            at.absorption_after_per_mm = absorption_per_mm(surface.medium_after, wavelength_nm);
+        }
         system.surfaces.push_back(std::move(at));
         z += surface.thickness_mm;
     }
@@ -91,7 +96,11 @@ OpticalSystem as_listed(const Prescription& lens, double wavelength_nm) {
     system.sensor_width_mm = lens.sensor.width_mm;
     system.sensor_height_mm = lens.sensor.height_mm;
     system.sensor_face = face_of(lens.sensor, system.surfaces.back().n_after, wavelength_nm);
-    if (system.sensor_face) system.sensor_face->vertex_z_mm = z;
+    if (system.sensor_face) {
+        system.sensor_face->vertex_z_mm = z;
+        system.sensor_face->absorption_before_per_mm =
+            system.surfaces.back().absorption_after_per_mm;
+    }
     const double listed = lens.surfaces[lens.stop.surface].semi_diameter_mm;
     system.stop_mask.semi_diameter_mm =
         std::min(listed, lens.stop.semi_diameter_mm.value_or(listed));

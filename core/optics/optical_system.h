@@ -19,6 +19,8 @@ struct SurfaceAt {
     double semi_diameter_mm = 0.0;
     double n_before = 1.0;
     double n_after = 1.0;
+    double absorption_before_per_mm = 0.0;  ///< −ln τ of the media, 0 where they are lossless
+    double absorption_after_per_mm = 0.0;
     Film film;  ///< seen from the incoming side
     bool reflects = false;
     /// At every angle and polarisation in place of what the film gives; the sensor's alone.

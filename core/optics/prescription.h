@@ -127,6 +127,8 @@ struct Prescription {
     Stop stop;
     Sensor sensor;
     std::vector<Configuration> configurations;
+    /// Glasses absorb as their catalogue says; else, and where it says nothing, they are lossless.
+    bool internal_transmittance = false;
     UnknownFields unknown;
     bool operator==(const Prescription&) const = default;
 };

@@ -89,9 +89,16 @@ TracedRay trace_ray(const OpticalSystem& system, const GhostPath& ghost, const R
     auto clip = [&](RayFate fate, std::size_t surface) {
         if (result.status.fate == RayFate::ok) result.status = {fate, surface};
     };
+    double left = 1.0;  // by the media
+    auto absorb = [&](double per_mm, double length_mm) {
+        if (per_mm > 0.0) left *= std::exp(-per_mm * length_mm);
+    };
     for (const TraceStep<double>& step : path.steps) {
         const std::size_t surface = static_cast<std::size_t>(step.surface);
+        const glm::dvec3 start = at.position;
         const Meeting<double> meeting = meet(step, path.aspheric.data(), 1.0, at);
+        const glm::dvec3 leg = at.position - start - glm::dvec3(0.0, 0.0, step.gap_mm);
+        absorb(step.absorption_per_mm, dot(leg, at.direction));
         if (!(meeting.turned_margin >= 0.0)) return fail(RayFate::turned, surface);
         if (!(meeting.miss_margin >= 0.0)) return fail(RayFate::miss, surface);
         RayHit hit{.surface = surface,
@@ -126,18 +133,20 @@ TracedRay trace_ray(const OpticalSystem& system, const GhostPath& ghost, const R
             average = 0.0;
             jones = {};
         }
-        hit.intensity = 0.5 * (jones.intensity(0) + jones.intensity(1));
+        hit.intensity = left * 0.5 * (jones.intensity(0) + jones.intensity(1));
         result.hits.push_back(hit);
     }
     if (!(at.direction.z > 0.0)) return fail(RayFate::turned, system.surfaces.size());
     at.position.z += path.sensor_gap_mm;
-    result.sensor_point = along(at.position, at.direction, -at.position.z / at.direction.z);
+    const double to_sensor_mm = -at.position.z / at.direction.z;
+    absorb(path.sensor_absorption_per_mm, to_sensor_mm);
+    result.sensor_point = along(at.position, at.direction, to_sensor_mm);
     result.sensor_point.z = system.sensor_z_mm;
     result.direction = at.direction;
-    result.weight_s = jones.intensity(0);
-    result.weight_p = jones.intensity(1);
+    result.weight_s = left * jones.intensity(0);
+    result.weight_p = left * jones.intensity(1);
     result.weight = 0.5 * (result.weight_s + result.weight_p);
-    result.weight_average = average;
+    result.weight_average = left * average;
     return result;
 }
 

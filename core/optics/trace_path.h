@@ -20,9 +20,10 @@ struct TraceStep {
     T inverse_clear;                            ///< 1 / semi-diameter
     T inverse_half_width, inverse_half_height;  ///< instead, where `rectangular`
     T uniform_r, uniform_t;                     ///< amplitudes, where `uniform`
-    T n_in, n_out;  ///< along travel; n_out is the far side's also where the ray reflects
-    T eta;          ///< n_in / n_out
-    T sense;        ///< nominal direction of travel before the event, ±1
+    T n_in, n_out;        ///< along travel; n_out is the far side's also where the ray reflects
+    T eta;                ///< n_in / n_out
+    T sense;              ///< nominal direction of travel before the event, ±1
+    T absorption_per_mm;  ///< −ln τ of the medium that leads here
     int first_aspheric, aspheric_count;
     int first_layer, layer_count;
     const AngleAt<T>* angles;  ///< of a film whose shares are given instead of layers, else null
@@ -43,6 +44,8 @@ struct TracePath {
     /// What the steps' `angles` point to: copies of a path share it, so that they stay valid.
     std::vector<std::shared_ptr<const std::vector<AngleAt<T>>>> angles;
     T sensor_gap_mm{};  ///< last vertex z minus the sensor's
+    T sensor_absorption_per_mm{};
+    bool absorbs = false;  ///< in one of its media
     int stop_crossings = 0;
 };
 
@@ -74,6 +77,9 @@ TracePath<T> trace_path(const OpticalSystem& system, const GhostPath& ghost) {
         step.eta = T(film.n_in / film.n_out);
         step.spherical = surface.conic == 0.0 && surface.aspheric.empty();
         step.sense = T(event.forward ? 1.0 : -1.0);
+        step.absorption_per_mm =
+            T(event.forward ? surface.absorption_before_per_mm : surface.absorption_after_per_mm);
+        if (step.absorption_per_mm > T(0)) path.absorbs = true;
         step.first_aspheric = static_cast<int>(path.aspheric.size());
         step.aspheric_count = static_cast<int>(surface.aspheric.size());
         for (const double a : surface.aspheric) path.aspheric.push_back(T(a));
@@ -104,6 +110,8 @@ TracePath<T> trace_path(const OpticalSystem& system, const GhostPath& ghost) {
         path.steps.push_back(step);
     }
     path.sensor_gap_mm = T(z - system.sensor_z_mm);
+    path.sensor_absorption_per_mm = T(system.surfaces.back().absorption_after_per_mm);
+    if (path.sensor_absorption_per_mm > T(0)) path.absorbs = true;
     return path;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tests/app/program.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight::test {
 namespace {
@@ -56,7 +57,7 @@ TEST(CommandLineRefuses, LensFiles) {
     expect_refused({"info", "no-such-lens"}, {"no-such-lens", "path of a lens file"});
     expect_refused({"info", "/"}, {"'/'"});
     expect_refused({"info", ""}, {"LENS"});
-    expect_refused({"info", GHOSTLIGHT_CLI_PATH}, {GHOSTLIGHT_CLI_PATH});
+    expect_refused({"info", cli_program()}, {cli_program()});
 }
 
 TEST(CommandLineRefuses, Wavelengths) {

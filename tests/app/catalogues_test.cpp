@@ -5,11 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/program.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight::test {
 namespace {
 
-const std::string data = std::string(GHOSTLIGHT_TEST_DATA_DIR);
+const std::string data = test_data_folder().string();
 
 class CommandLineCoatingFiles : public InTemporaryFolder {};
 

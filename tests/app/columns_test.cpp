@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/program.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight::test {
 namespace {
@@ -159,8 +160,7 @@ TEST(CommandLineColumns, ReadableTableIsAlignedUnderTheSameNames) {
 }
 
 TEST(CommandLineColumns, DocumentationNamesThemAll) {
-    const std::string text =
-        read_file(std::filesystem::path(GHOSTLIGHT_TEST_DATA_DIR) / "../../docs/command-line.md");
+    const std::string text = read_file(test_data_folder() / "../../docs/command-line.md");
     for (const Case& each : cases())
         for (const std::string& name : each.names)
             EXPECT_NE(text.find("`" + name + "`"), std::string::npos) << name;

@@ -3,13 +3,12 @@
 #include <filesystem>
 
 #include "tests/app/program.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight::test {
 namespace {
 
-std::string sample(const std::string& name) {
-    return (std::filesystem::path(GHOSTLIGHT_TEST_DATA_DIR) / name).string();
-}
+std::string sample(const std::string& name) { return (test_data_folder() / name).string(); }
 
 class Convert : public InTemporaryFolder {};
 

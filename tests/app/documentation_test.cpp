@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "tests/app/program.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight::test {
 namespace {
@@ -27,11 +28,9 @@ std::vector<std::string> shell_blocks(const std::string& markdown) {
 class CommandLineDocumentation : public InTemporaryFolder {};
 
 TEST_F(CommandLineDocumentation, ExamplesRunAsWritten) {
-    const auto blocks = shell_blocks(
-        read_file(std::filesystem::path(GHOSTLIGHT_TEST_DATA_DIR) / "../../docs/command-line.md"));
+    const auto blocks = shell_blocks(read_file(test_data_folder() / "../../docs/command-line.md"));
     ASSERT_GE(blocks.size(), 6U);
-    const std::string path = std::filesystem::path(GHOSTLIGHT_CLI_PATH).parent_path().string() +
-                             ":" + std::getenv("PATH");
+    const std::string path = cli_program().parent_path().string() + ":" + std::getenv("PATH");
     for (const std::string& block : blocks) {
         // One folder for all: later examples may use the files of earlier ones.
         const Outcome outcome =

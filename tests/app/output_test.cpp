@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/program.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight::test {
 namespace {
@@ -14,7 +15,7 @@ class CommandLineOutput : public InTemporaryFolder {
     Outcome shell(const std::string& command) const {
         return run_program({"sh", "-c", command},
                            {.input = {},
-                            .environment = {{"cli", GHOSTLIGHT_CLI_PATH}, {"lens", tessar()}},
+                            .environment = {{"cli", cli_program()}, {"lens", tessar()}},
                             .directory = folder});
     }
 };

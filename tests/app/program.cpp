@@ -1,4 +1,5 @@
 #include "tests/app/program.h"
+#include "tests/support/test_paths.h"
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -74,7 +75,7 @@ Outcome run_program(const std::vector<std::string>& command, const RunOptions& o
 }
 
 Outcome cli(std::vector<std::string> arguments, const RunOptions& options) {
-    arguments.insert(arguments.begin(), GHOSTLIGHT_CLI_PATH);
+    arguments.insert(arguments.begin(), cli_program());
     return run_program(arguments, options);
 }
 
@@ -137,9 +138,7 @@ void write_file(const std::filesystem::path& file, const std::string& text) {
     std::ofstream(file, std::ios::binary) << text;
 }
 
-std::filesystem::path expected_data() {
-    return std::filesystem::path(GHOSTLIGHT_TEST_DATA_DIR) / "expected";
-}
+std::filesystem::path expected_data() { return test_data_folder() / "expected"; }
 
 std::string tessar() { return (expected_data() / "tessar_brendel_100_f2.8.json").string(); }
 

@@ -16,6 +16,7 @@
 #include "core/io/lens_file.h"
 #include "core/io/read_text.h"
 #include "core/io/refractive_index_yaml.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight {
 namespace {
@@ -223,9 +224,9 @@ std::string bytes_of(const fs::path& file) {
 /// The bundled lenses and the test data, but for what is no lens or meant to be refused.
 std::vector<fs::path> sample_files() {
     std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(GHOSTLIGHT_LENS_DIR))
+    for (const auto& entry : fs::directory_iterator(lens_folder()))
         if (entry.is_regular_file()) files.push_back(entry.path());
-    for (auto entry = fs::recursive_directory_iterator(GHOSTLIGHT_TEST_DATA_DIR);
+    for (auto entry = fs::recursive_directory_iterator(test_data_folder());
          entry != fs::recursive_directory_iterator(); ++entry) {
         const std::string name = entry->path().filename().string();
         if (entry->is_directory() && (name == "malformed" || name == "expected"))

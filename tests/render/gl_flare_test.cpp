@@ -13,6 +13,7 @@
 #include "render/offscreen.h"
 #include "tests/support/error_of.h"
 #include "tests/support/optics_kit.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight {
 namespace {
@@ -24,7 +25,7 @@ constexpr double engines = 2.0;
 
 std::vector<std::string> lens_names() {
     std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(GHOSTLIGHT_LENS_DIR))
+    for (const auto& entry : std::filesystem::directory_iterator(lens_folder()))
         if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
     std::ranges::sort(names);
     return names;

@@ -9,6 +9,7 @@
 #include "core/io/lens_file.h"
 #include "core/optics/prescription.h"
 #include "core/units.h"
+#include "tests/support/test_paths.h"
 
 // For tests of readers: samples, their reports, and first-order data by another way.
 
@@ -16,7 +17,7 @@ namespace ghostlight {
 
 /// A file of tests/data, through the list of formats.
 inline LensFile read_sample(const std::string& name) {
-    return read_lens(std::string(GHOSTLIGHT_TEST_DATA_DIR "/") + name);
+    return read_lens(test_data_folder() / name);
 }
 
 /// The first note whose text has the words; null, and a failed test, when there is none.

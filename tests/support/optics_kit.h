@@ -9,6 +9,7 @@
 #include "core/io/lens_file.h"
 #include "core/optics/optical_system.h"
 #include "core/optics/prescription.h"
+#include "tests/support/test_paths.h"
 
 // Lenses and random numbers for tests.
 
@@ -38,7 +39,7 @@ inline Prescription lens_of(std::vector<Surface> rows, std::size_t stop = 0) {
 
 /// A lens of the lenses folder, by its file's name without the extension.
 inline Prescription bundled(const std::string& name) {
-    return read_lens(std::filesystem::path(GHOSTLIGHT_LENS_DIR) / (name + ".json")).lens;
+    return read_lens(lens_folder() / (name + ".json")).lens;
 }
 
 /// The same lens with its stop closed to a semi-diameter.

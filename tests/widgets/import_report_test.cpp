@@ -21,6 +21,7 @@
 #include "core/io/formats.h"
 #include "core/io/glass_library.h"
 #include "core/units.h"
+#include "tests/support/test_paths.h"
 #include "tests/widgets/window_kit.h"
 #include "widgets/file_actions.h"
 #include "widgets/glass_folders.h"
@@ -43,9 +44,7 @@ namespace {
 
 using test::OpenWindow;
 
-std::filesystem::path sample(const std::string& file) {
-    return std::filesystem::path(GHOSTLIGHT_TEST_DATA_DIR) / file;
-}
+std::filesystem::path sample(const std::string& file) { return test_data_folder() / file; }
 
 constexpr int unknown_row = 2;  // SF2X follows surface 3
 

@@ -11,6 +11,7 @@
 #include <filesystem>
 
 #include "core/io/lens_file.h"
+#include "tests/support/test_paths.h"
 #include "widgets/layout_view.h"
 #include "widgets/palette.h"
 #include "widgets/panel_header.h"
@@ -20,9 +21,7 @@ namespace {
 
 constexpr double d_nm = 587.5618;
 
-Prescription bundled_lens(const std::string& file) {
-    return read_lens(std::filesystem::path(GHOSTLIGHT_LENS_DIR) / file).lens;
-}
+Prescription bundled_lens(const std::string& file) { return read_lens(lens_folder() / file).lens; }
 
 class LayoutPanelTest : public testing::Test {
    protected:

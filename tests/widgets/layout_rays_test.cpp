@@ -10,6 +10,7 @@
 #include "core/io/lens_file.h"
 #include "core/optics/paraxial.h"
 #include "core/units.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 constexpr double lead_mm = 10.0;
 
 OpticalSystem bundled_system(const std::string& file) {
-    return compile(read_lens(std::filesystem::path(GHOSTLIGHT_LENS_DIR) / file).lens, 587.5618);
+    return compile(read_lens(lens_folder() / file).lens, 587.5618);
 }
 
 OpticalSystem tessar() { return bundled_system("tessar_brendel_100_f2.8.json"); }

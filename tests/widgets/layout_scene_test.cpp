@@ -6,15 +6,14 @@
 #include <filesystem>
 
 #include "core/io/lens_file.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight {
 namespace {
 
 constexpr double drawn_mm = 1e-9;  // of two formulas for one sag
 
-Prescription bundled_lens(const std::string& file) {
-    return read_lens(std::filesystem::path(GHOSTLIGHT_LENS_DIR) / file).lens;
-}
+Prescription bundled_lens(const std::string& file) { return read_lens(lens_folder() / file).lens; }
 
 Surface sphere(double radius_mm, double thickness_mm, double semi_mm, double n_after) {
     Surface surface;

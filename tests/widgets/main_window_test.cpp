@@ -21,6 +21,7 @@
 #include <set>
 
 #include "core/io/table_file.h"
+#include "tests/support/test_paths.h"
 #include "tests/widgets/window_kit.h"
 #include "widgets/file_actions.h"
 #include "widgets/flare_view.h"
@@ -113,7 +114,7 @@ TEST_P(EveryLensSlow, AnEditReachesAllViews) {
 
 std::vector<std::string> every_lens() {
     std::vector<std::string> files;
-    const QDir folder(GHOSTLIGHT_LENS_DIR);
+    const QDir folder(QString::fromStdString(lens_folder().string()));
     for (const QString& file : folder.entryList({"*.json"}, QDir::Files)) {
         files.push_back(file.toStdString());
     }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/io/lens_file.h"
+#include "tests/support/test_paths.h"
 #include "widgets/main_window.h"
 #include "widgets/snapshot.h"
 
@@ -14,9 +15,7 @@ namespace ghostlight::test {
 /// The largest bundled lens on a busy machine.
 inline constexpr int patience_ms = 240'000;
 
-inline std::filesystem::path bundled(const std::string& file) {
-    return std::filesystem::path(GHOSTLIGHT_LENS_DIR) / file;
-}
+inline std::filesystem::path bundled(const std::string& file) { return lens_folder() / file; }
 
 inline std::filesystem::path tessar() { return bundled("tessar_brendel_100_f2.8.json"); }
 

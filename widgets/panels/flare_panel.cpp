@@ -51,6 +51,11 @@ void FlarePanel::begin_lens() {
     view_->reset_zoom();
 }
 
+void FlarePanel::set_failed() {
+    set_dimmed(true);
+    view_->set_failed();
+}
+
 void FlarePanel::set_light(const LightDirection& light, double efl_mm) {
     view_->set_light(light, efl_mm);
 }

@@ -27,6 +27,8 @@ class FlarePanel : public QWidget {
     void begin_lens();
     /// Where the light is, and the focal length by which a drag is turned into an angle.
     void set_light(const LightDirection& light, double efl_mm);
+    /// The lens cannot be traced: the last picture is dimmed, or the empty view says so.
+    void set_failed();
 
     /// Exposure in stops; 0 shows an irradiance of E0 as white.
     void set_exposure_ev(double exposure_ev);

@@ -11,6 +11,7 @@
 #include "core/optics/paraxial.h"
 #include "core/units.h"
 #include "tests/support/optics_kit.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight {
 namespace {
@@ -136,7 +137,7 @@ TEST(GhostMesh, FloatAndDoubleDrawTheSame) {
 
 TEST(GhostMesh, IrradianceAgreesWithRandomRaysOfASeparateProgram) {
     // 4 standard errors of the map, and 2 %: what its source states.
-    const std::string folder = GHOSTLIGHT_TEST_DATA_DIR "/expected/";
+    const std::string folder = (test_data_folder() / "expected/").string();
     std::ifstream file(folder + "irradiance_tessar_5_3.json");
     const auto expected = nlohmann::json::parse(file);
     const Prescription lens =

@@ -27,6 +27,11 @@ Prescription coated_tessar() {
         {{medium(1.63), 85.0, 0.0}, {medium(2.0), 60.0, 0.02}, {medium(1.38), 95.0, 0.0}}};
     lens.sensor.reflectance =
         SensorFilms{{{{medium(1.46), 80.0, 0.0}, {medium(2.1), 45.0, 0.0}}}, medium(3.5)};
+    // Glass that absorbs gives rays of one ghost other weights, and no other derivative of a ray.
+    for (Surface& surface : lens.surfaces)
+        if (!is_air(surface.medium_after))
+            surface.medium_after.transmittance = {{550.0, 0.6, 10.0}};
+    lens.internal_transmittance = true;
     return lens;
 }
 

@@ -4,13 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/error_of.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight {
 namespace {
 
 using testing::HasSubstr;
 
-const std::filesystem::path folder = GHOSTLIGHT_TEST_DATA_DIR "/agf";
+const std::filesystem::path folder = test_data_folder() / "agf";
 
 const CataloguedGlass* named(const GlassFile& catalog, std::string_view name) {
     for (const CataloguedGlass& glass : catalog.glasses)

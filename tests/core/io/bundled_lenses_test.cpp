@@ -10,6 +10,7 @@
 #include "core/optics/optical_system.h"
 #include "core/optics/paraxial.h"
 #include "core/units.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight {
 namespace {
@@ -130,7 +131,7 @@ TEST(BundledLenses, TheNoctsFieldFillsItsFormat) {
 
 TEST(BundledLenses, TheZoomsEndsAreTheListings) {
     const Prescription listed =
-        read_lens(GHOSTLIGHT_TEST_DATA_DIR "/listings/canon_zoom_70_200_f2.8_tele.json").lens;
+        read_lens(test_data_folder() / "listings/canon_zoom_70_200_f2.8_tele.json").lens;
     const Prescription tele =
         configured(read_lens(data_directory() / "canon_zoom_70_200_f2.8.json").lens, "tele");
     ASSERT_EQ(tele.surfaces.size(), listed.surfaces.size());

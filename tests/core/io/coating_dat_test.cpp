@@ -8,13 +8,14 @@
 #include "core/io/coating_csv.h"
 #include "tests/support/error_of.h"
 #include "tests/support/optics_kit.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight {
 namespace {
 
 using testing::HasSubstr;
 
-const std::filesystem::path folder = GHOSTLIGHT_TEST_DATA_DIR "/coatings";
+const std::filesystem::path folder = test_data_folder() / "coatings";
 
 CoatingFile sample() { return read_coating_file(folder / "COATING.DAT"); }
 

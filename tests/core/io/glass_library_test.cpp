@@ -1,4 +1,5 @@
 #include "core/io/glass_library.h"
+#include "tests/support/test_paths.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,8 +14,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 GlassLibrary with_samples() {
-    const std::vector<std::filesystem::path> folders{GHOSTLIGHT_TEST_DATA_DIR "/agf",
-                                                     GHOSTLIGHT_TEST_DATA_DIR "/materials"};
+    const std::vector<std::filesystem::path> folders{test_data_folder() / "agf",
+                                                     test_data_folder() / "materials"};
     return read_glass_library(folders);
 }
 
@@ -132,7 +133,7 @@ TEST(GlassCode, FindsTheGlassesOfThatCode) {
 }
 
 TEST(GlassLibrary, FoldersMayBeSetAndTheLibraryFollows) {
-    set_glass_folders({GHOSTLIGHT_TEST_DATA_DIR "/agf"});
+    set_glass_folders({test_data_folder() / "agf"});
     const auto with = glass_library();
     EXPECT_EQ(find_glass("J-BK7A", {})->glass.catalog, "SAMPLE");
     set_glass_folders({});

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/io/lens_file.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight {
 namespace {
@@ -47,8 +48,7 @@ TEST(ImportReport, ALineIsThatOfTheSurfaceOnIt) {
 }
 
 TEST(ImportReport, AnUnknownGlassIsFoundByItsName) {
-    const LensFile file =
-        read_lens(std::filesystem::path(GHOSTLIGHT_TEST_DATA_DIR) / "zmx" / "unknown_glass.zmx");
+    const LensFile file = read_lens(test_data_folder() / "zmx" / "unknown_glass.zmx");
     const auto note = std::ranges::find(file.notes, Note::Severity::error, &Note::severity);
     ASSERT_NE(note, file.notes.end());
     EXPECT_EQ(surface_of(*note, file.notes, file.lens), 2U) << "SF2X follows surface 3";

@@ -13,6 +13,7 @@
 
 #include "core/io/aside_file.h"
 #include "tests/support/error_of.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight {
 namespace {
@@ -43,7 +44,7 @@ class LensFiles : public testing::Test {
 };
 
 TEST_F(LensFiles, WrittenLensReadsBack) {
-    const Prescription lens = read_lens(GHOSTLIGHT_LENS_DIR "/tessar_brendel_100_f2.8.json").lens;
+    const Prescription lens = read_lens(lens_folder() / "tessar_brendel_100_f2.8.json").lens;
     const fs::path file = folder / "my lens.json";
     write_lens(lens, file);
     EXPECT_EQ(read_lens(file).lens, lens);
@@ -51,8 +52,7 @@ TEST_F(LensFiles, WrittenLensReadsBack) {
 }
 
 TEST_F(LensFiles, LensWithoutANameIsCalledAfterItsFile) {
-    std::string text =
-        lens_to_json(read_lens(GHOSTLIGHT_LENS_DIR "/heliar_tronnier_100.json").lens);
+    std::string text = lens_to_json(read_lens(lens_folder() / "heliar_tronnier_100.json").lens);
     const auto at = text.find("  \"name\"");
     text.erase(at, text.find('\n', at) + 1 - at);
     write_file_safely(folder / "nameless.json", text);
@@ -156,7 +156,7 @@ TEST_F(LensFiles, FoldersAndMissingFilesAreRefused) {
 
 TEST_F(LensFiles, EveryMalformedFileIsRefusedByName) {
     int count = 0;
-    for (const auto& entry : fs::directory_iterator(GHOSTLIGHT_TEST_DATA_DIR "/malformed")) {
+    for (const auto& entry : fs::directory_iterator(test_data_folder() / "malformed")) {
         const Error::Parts error = error_of([&] { read_lens(entry.path()); });
         EXPECT_EQ(error.file, entry.path().string());
         EXPECT_FALSE(error.problem.empty());
@@ -171,8 +171,8 @@ TEST_F(LensFiles, TheEnvironmentMayNameTheData) {
     const std::string kept = before ? before : "";
     ::setenv("GHOSTLIGHT_DATA", folder.c_str(), 1);
     EXPECT_EQ(error_of([] { data_directory(); }).found, folder.string());
-    ::setenv("GHOSTLIGHT_DATA", GHOSTLIGHT_LENS_DIR, 1);
-    EXPECT_EQ(data_directory(), fs::path(GHOSTLIGHT_LENS_DIR));
+    ::setenv("GHOSTLIGHT_DATA", lens_folder().c_str(), 1);
+    EXPECT_EQ(data_directory(), lens_folder());
     if (before)
         ::setenv("GHOSTLIGHT_DATA", kept.c_str(), 1);
     else

@@ -6,6 +6,7 @@
 #include "core/io/lens_file.h"
 #include "core/units.h"
 #include "tests/support/error_of.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight {
 namespace {
@@ -131,8 +132,7 @@ TEST(LensListing, OddThingsAreNoted) {
 
 TEST(LensListing, ReadsTheListingsAsTheyStand) {
     int count = 0;
-    for (const auto& entry :
-         std::filesystem::directory_iterator(GHOSTLIGHT_TEST_DATA_DIR "/listings")) {
+    for (const auto& entry : std::filesystem::directory_iterator(test_data_folder() / "listings")) {
         SCOPED_TRACE(entry.path().string());
         const LensFile file = read_lens(entry.path());
         EXPECT_GT(file.lens.surfaces.size(), 5u);

@@ -7,13 +7,14 @@
 #include <numbers>
 
 #include "tests/support/error_of.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight {
 namespace {
 
 using testing::HasSubstr;
 
-const std::filesystem::path folder = GHOSTLIGHT_TEST_DATA_DIR "/materials";
+const std::filesystem::path folder = test_data_folder() / "materials";
 
 TEST(RefractiveIndexYaml, ReadsAFormulaWithExtinctionAndProperties) {
     const GlassFile file = read_material_yaml(folder / "J-BK7A.yml");

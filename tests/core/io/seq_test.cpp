@@ -11,6 +11,7 @@
 #include "tests/support/error_of.h"
 #include "tests/support/import_kit.h"
 #include "tests/support/optics_kit.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight {
 namespace {
@@ -164,7 +165,7 @@ TEST(Seq, TiltsOfNothingAndOfTheImageAreOpened) {
 
 TEST(Seq, CutAnywhereIsALensOrAnError) {
     for (const char* name : {"seq/triplet.seq", "seq/glasses.seq", "seq/zoom.seq"}) {
-        const std::string text = read_text(std::string(GHOSTLIGHT_TEST_DATA_DIR "/") + name);
+        const std::string text = read_text(test_data_folder() / name);
         for (std::size_t end = 0; end < text.size(); ++end) {
             try {
                 read_text_as_seq(text.substr(0, end));

@@ -30,8 +30,8 @@ TEST(TextLines, Words) {
     EXPECT_THAT(words(" a \t bc  "), testing::ElementsAre("a", "bc"));
     EXPECT_TRUE(words(" \t").empty());
     EXPECT_EQ(trimmed("  a b\t"), "a b");
-    EXPECT_TRUE(same_word("Stop", "sTOP"));
-    EXPECT_FALSE(same_word("stop", "stops"));
+    EXPECT_TRUE(is_same_name("Stop", "sTOP"));
+    EXPECT_FALSE(is_same_name("stop", "stops"));
 }
 
 TEST(TextLines, NumbersWhateverTheLocale) {

@@ -10,6 +10,7 @@
 #include "tests/support/error_of.h"
 #include "tests/support/import_kit.h"
 #include "tests/support/optics_kit.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight {
 namespace {
@@ -210,8 +211,7 @@ TEST(Zmx, ImageHeightsAndSolves) {
 
 TEST(Zmx, CutAnywhereIsALensOrAnError) {
     for (const char* name : {"zmx/triplet.zmx", "zmx/tricky.zmx", "zmx/zoom.zmx"}) {
-        const std::string text =
-            utf8_text(read_text(std::string(GHOSTLIGHT_TEST_DATA_DIR "/") + name));
+        const std::string text = utf8_text(read_text(test_data_folder() / name));
         for (std::size_t end = 0; end < text.size(); ++end) {
             try {
                 read_text_as_zmx(text.substr(0, end));

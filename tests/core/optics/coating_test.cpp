@@ -12,6 +12,7 @@
 
 #include "tests/support/error_of.h"
 #include "tests/support/optics_kit.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight {
 namespace {
@@ -308,7 +309,7 @@ TEST(Coating, StackTextIsReadFromTheIncomingSide) {
 
 TEST(Coating, AgreesWithASeparateProgram) {
     constexpr double tolerance = 1e-10;  // what the values' source states
-    const std::string folder = GHOSTLIGHT_TEST_DATA_DIR "/expected/";
+    const std::string folder = (test_data_folder() / "expected/").string();
     std::ifstream definitions(folder + "coatings_def.json");
     const auto stacks = nlohmann::json::parse(definitions);
     std::ifstream table(folder + "coatings.csv");

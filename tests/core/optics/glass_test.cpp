@@ -10,6 +10,7 @@
 #include "core/io/lens_file.h"
 #include "core/units.h"
 #include "tests/support/error_of.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight {
 namespace {
@@ -25,7 +26,7 @@ Medium with_formula(int number, std::vector<double> coefficients, double min_nm 
 TEST(Glass, BundledGlassesAgreeWithASeparateProgram) {
     // The table has 12 decimals; the formulas are evaluated in double.
     constexpr double tolerance = 1e-11;
-    std::ifstream file(GHOSTLIGHT_TEST_DATA_DIR "/glass_indices.csv");
+    std::ifstream file(test_data_folder() / "glass_indices.csv");
     ASSERT_TRUE(file);
     std::string line;
     std::getline(file, line);

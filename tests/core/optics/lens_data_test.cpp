@@ -12,6 +12,7 @@
 #include "core/optics/real_rays.h"
 #include "core/units.h"
 #include "tests/support/optics_kit.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight {
 namespace {
@@ -19,12 +20,10 @@ namespace {
 constexpr double relative = 1e-9;  // the expected values' own digits
 
 TEST(LensData, AgreesWithTheIndependentTracer) {
-    std::ifstream in(std::filesystem::path(GHOSTLIGHT_TEST_DATA_DIR) / "expected" /
-                     "first_order_tessar.json");
+    std::ifstream in(test_data_folder() / "expected" / "first_order_tessar.json");
     const auto expected = nlohmann::json::parse(in);
-    const Prescription lens = read_lens(std::filesystem::path(GHOSTLIGHT_TEST_DATA_DIR) /
-                                        "expected/tessar_brendel_100_f2.8.json")
-                                  .lens;
+    const Prescription lens =
+        read_lens(test_data_folder() / "expected/tessar_brendel_100_f2.8.json").lens;
     for (const auto& [line, nm] :
          {std::pair{"F", f_line_nm}, std::pair{"d", d_line_nm}, std::pair{"C", c_line_nm}}) {
         const FirstOrder order = first_order(compile(lens, nm));

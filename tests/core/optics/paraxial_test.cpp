@@ -11,6 +11,7 @@
 #include "core/optics/trace.h"
 #include "core/units.h"
 #include "tests/support/optics_kit.h"
+#include "tests/support/test_paths.h"
 
 namespace ghostlight {
 namespace {
@@ -166,7 +167,7 @@ TEST(Paraxial, FresnelNumberOfAnApertureInParallelLight) {
 
 TEST(Paraxial, AgreesWithASeparateProgram) {
     constexpr double tolerance = 1e-9;  // relative, what the values' source states
-    const std::string folder = GHOSTLIGHT_TEST_DATA_DIR "/expected/";
+    const std::string folder = (test_data_folder() / "expected/").string();
     const Prescription lens = read_lens(folder + "tessar_brendel_100_f2.8.json").lens;
     std::ifstream file(folder + "first_order_tessar.json");
     const auto expected = nlohmann::json::parse(file);
