@@ -18,6 +18,8 @@ void add_starburst(CLI::App& program);
 void add_plan(CLI::App& program);
 void add_veil(CLI::App& program);
 void add_composite(CLI::App& program);
+void add_accuracy(CLI::App& program);
+void add_stability(CLI::App& program);
 void add_lenses(CLI::App& program);
 void add_convert(CLI::App& program);
 

@@ -73,6 +73,8 @@ int run(std::vector<std::string> arguments) {
     add_plan(program);
     add_veil(program);
     add_composite(program);
+    add_accuracy(program);
+    add_stability(program);
     add_lenses(program);
     add_convert(program);
     add_glasses(program);
