@@ -25,6 +25,7 @@ class LayoutPanel;
 class PrescriptionPanel;
 class SceneBar;
 class StatusLine;
+class StopPanel;
 
 /// The workbench: panels around one document. It only puts together; what each part does is in
 /// its own file.
@@ -55,6 +56,7 @@ class MainWindow : public QMainWindow {
     GhostPanel& ghost_panel() { return *ghosts_; }
     ImportReportPanel& import_report_panel() { return *report_; }
     FirstOrderPanel& first_order_panel() { return *first_order_; }
+    StopPanel& stop_panel() { return *stop_; }
     const std::optional<FlarePicture>& picture() const { return picture_; }
 
    Q_SIGNALS:
@@ -102,6 +104,7 @@ class MainWindow : public QMainWindow {
     GhostPanel* ghosts_ = nullptr;
     ImportReportPanel* report_ = nullptr;
     FirstOrderPanel* first_order_ = nullptr;
+    StopPanel* stop_ = nullptr;
     StatusLine* status_ = nullptr;
     Banner* banner_ = nullptr;
     FileActions* files_ = nullptr;
@@ -110,6 +113,7 @@ class MainWindow : public QMainWindow {
     QDockWidget* ghost_dock_ = nullptr;
     QDockWidget* report_dock_ = nullptr;
     QDockWidget* first_order_dock_ = nullptr;
+    QDockWidget* stop_dock_ = nullptr;
 
     QTimer scene_update_;  ///< many changes, one drawing
     std::optional<FlarePicture> picture_;
