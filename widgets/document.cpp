@@ -4,6 +4,7 @@
 
 #include "core/io/lens_file.h"
 #include "core/io/read_text.h"
+#include "core/io/scene_json.h"
 #include "widgets/edit_command.h"
 
 namespace ghostlight {

@@ -11,8 +11,8 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/flare/scene.h"
 #include "core/optics/prescription.h"
-#include "widgets/scene.h"
 
 namespace ghostlight {
 

@@ -16,6 +16,8 @@ void add_ghosts(CLI::App& program);
 void add_render(CLI::App& program);
 void add_starburst(CLI::App& program);
 void add_plan(CLI::App& program);
+void add_veil(CLI::App& program);
+void add_composite(CLI::App& program);
 void add_lenses(CLI::App& program);
 void add_convert(CLI::App& program);
 

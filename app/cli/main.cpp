@@ -71,6 +71,8 @@ int run(std::vector<std::string> arguments) {
     add_render(program);
     add_starburst(program);
     add_plan(program);
+    add_veil(program);
+    add_composite(program);
     add_lenses(program);
     add_convert(program);
     add_glasses(program);

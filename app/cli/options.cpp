@@ -257,9 +257,9 @@ CLI::Option* add_text(CLI::App& command, const std::string& name, std::string& v
             [](std::string& text) { return text.empty() ? "is empty" : std::string(); }, ""));
 }
 
-CLI::Option* add_lens(CLI::App& command, LensOptions& options) {
+CLI::Option* add_lens(CLI::App& command, LensOptions& options, const std::string& name) {
     constexpr auto group = "Overrides of the lens, for this run";
-    auto* lens = add_text(command, "LENS", options.lens, "",
+    auto* lens = add_text(command, name, options.lens, name == "LENS" ? "" : "LENS",
                           "a lens file, or the name of a bundled lens (see: lenses)");
     add_text(command, "--config", options.config, "NAME", "zoom or focus position")->group(group);
     auto* f_number = add_text(command, "--f-number", options.f_number, "N",

@@ -71,7 +71,8 @@ struct LensOptions {
         internal_transmittance;
     StopOptions stop;
 };
-CLI::Option* add_lens(CLI::App& command, LensOptions& options);
+/// `name` is "LENS", or an option's.
+CLI::Option* add_lens(CLI::App& command, LensOptions& options, const std::string& name = "LENS");
 
 /// What may follow --coating. Throws Error.
 Coating parse_coating(std::string_view text);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <vector>
@@ -33,6 +34,11 @@ struct FlareRequest {
     double tolerance = 0.02;
     /// planned: how hard to look for where ghosts enter; quick while a light is dragged.
     ProbeSearch search = ProbeSearch::careful;
+    /// planned: a plan for a light close to this one, or a lens slightly other. Its ghosts' boxes
+    /// are looked at first, but for every eighth ghost, another eighth for every `turn`: for a
+    /// light that is being dragged, picture by picture.
+    std::shared_ptr<const FlarePlan> nearby;
+    int turn = 0;
     int width_px = 1280;  ///< the height follows from the sensor's shape
     CoatingModel coating_model = CoatingModel::exact;  ///< planned and paraxial
     double bend_px = 0.2;      ///< each ghost's grid is as fine as keeps its map bilinear to this
