@@ -70,9 +70,13 @@ int run(std::vector<std::string> arguments) {
     add_ghosts(program);
     add_render(program);
     add_starburst(program);
+    add_synth(program);
+    add_fit(program);
     add_plan(program);
     add_veil(program);
     add_composite(program);
+    add_accuracy(program);
+    add_stability(program);
     add_lenses(program);
     add_convert(program);
     add_glasses(program);

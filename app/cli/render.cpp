@@ -61,16 +61,30 @@ GhostLayers layers_of(const Prescription& lens, const FlareRequest& request, std
     return layers;
 }
 
-FlareOrigin origin_of(const LoadedLens& loaded, const FlareRequest& request) {
+/// Most wavelengths that a ghost of the picture was drawn at.
+int wavelengths_of(const FlareRequest& request, const FlareImage& image) {
+    switch (request.method) {
+        case FlareMethod::planned:
+        case FlareMethod::paraxial:
+            return FlareScene::usual_samples;
+        case FlareMethod::uniform:
+            return request.spectral_samples;
+        case FlareMethod::reference:
+            break;
+    }
+    int most = 1;
+    for (const PlannedGhost& ghost : image.plan.ghosts) most = std::max(most, ghost.bands);
+    return most;
+}
+
+FlareOrigin origin_of(const LoadedLens& loaded, const FlareRequest& request,
+                      const FlareImage& image) {
     FlareOrigin origin{.lens = loaded.lens.name,
                        .configuration = loaded.configuration,
                        .spectrum = name(request.spectrum),
                        .wavelengths_nm = {},
                        .light = request.light};
-    const bool from_scene =
-        request.method == FlareMethod::planned || request.method == FlareMethod::paraxial;
-    const int samples = from_scene ? FlareScene::usual_samples : request.spectral_samples;
-    for (const SpectralSample& each : sample(request.spectrum, samples))
+    for (const SpectralSample& each : sample(request.spectrum, wavelengths_of(request, image)))
         origin.wavelengths_nm.push_back(each.wavelength_nm);
     return origin;
 }
@@ -176,7 +190,7 @@ void run(const RenderOptions& options) {
     SceneLayers drawn = scene_layers(loaded.lens, scene, request);
     const FlareImage image = composed(scene, drawn);
     if (image.irradiance.empty()) throw Error("no layer is on: --layers names what to draw");
-    const FlareOrigin origin = origin_of(loaded, request);
+    const FlareOrigin origin = origin_of(loaded, request, image);
     GhostLayers layers;
     if (per_ghost > 0) layers = layers_of(loaded.lens, request, per_ghost);
     if (extension == ".exr") {

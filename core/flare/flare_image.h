@@ -18,11 +18,10 @@ namespace ghostlight {
 
 /// How a picture is made.
 enum class FlareMethod {
-    planned,   ///< the least work for a tolerance
-    paraxial,  ///< to first order (Lee and Eisemann 2013)
-    uniform,   ///< every ghost at every wavelength on a grid of its own (Hullin et al. 2011)
-    /// `uniform`, with the thorough search for pupils: what the others are compared with.
-    reference,
+    planned,    ///< the least work for a tolerance
+    paraxial,   ///< to first order (Lee and Eisemann 2013)
+    uniform,    ///< every ghost at every wavelength on a grid of its own (Hullin et al. 2011)
+    reference,  ///< refined until two samplings agree (reference_image.h)
 };
 
 /// What to draw, and how finely. The direct image is not part of the ghost layer.
@@ -30,7 +29,8 @@ struct FlareRequest {
     LightDirection light;
     Spectrum spectrum = Monochromatic{};
     FlareMethod method = FlareMethod::planned;
-    /// planned: L1 error of the ghost layer's irradiance on the sensor, relative to its light.
+    /// planned, reference: L1 error of the ghost layer's irradiance on the sensor, relative to its
+    /// light.
     double tolerance = 0.02;
     /// planned: how hard to look for where ghosts enter; quick while a light is dragged.
     ProbeSearch search = ProbeSearch::careful;
@@ -44,8 +44,8 @@ struct FlareRequest {
     double bend_px = 0.2;      ///< each ghost's grid is as fine as keeps its map bilinear to this
     int grid = 0;              ///< uniform: cells across every ghost's pupil; 0 = by bend_px
     double culled = 0.0;       ///< uniform: share of the ghosts, the weakest, that is not drawn
-    int spectral_samples = 5;  ///< used when the light is not of one wavelength
-    /// Draw these paths alone, by `uniform`; empty = all ghosts.
+    int spectral_samples = 5;  ///< uniform: used when the light is not of one wavelength
+    /// Draw these paths alone; empty = all ghosts.
     std::vector<GhostPath> only;
     /// Diffraction at the ghosts' rims, where it shows (ringing.h); not with `paraxial`.
     bool ringing = false;
@@ -81,7 +81,7 @@ struct FlareImage {
     std::size_t ghosts = 0, rays = 0, cells = 0;
     FlareTimes times;
     std::vector<RungGhost> ringing;
-    FlarePlan plan;  ///< of the method `planned`; else empty
+    FlarePlan plan;  ///< of the methods `planned` and `reference`; else empty
 };
 
 /// Traces every two-reflection ghost in uniform bundles and accumulates them with exact pixel
