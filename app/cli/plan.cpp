@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "app/cli/commands.h"
 #include "app/cli/output.h"
+#include "app/cli/plan_omissions.h"
 #include "app/cli/report.h"
 #include "app/cli/spectrum_option.h"
 #include "core/flare/planned_flare.h"
@@ -17,8 +19,12 @@ struct PlanOptions {
     LightOptions light{.field = "0"};
     SpectrumOptions spectrum;
     std::string tolerance = "0.02", width = "1280";
+    bool measure = false;
     OutputOptions output;
 };
+
+/// What the reference may err by that a picture is measured with, of its tolerance.
+constexpr double reference_share = 0.25;
 
 std::string fate_name(GhostFate fate) {
     switch (fate) {
@@ -81,6 +87,16 @@ void run(const PlanOptions& options) {
              if_drawn(static_cast<std::int64_t>(ghost.bands)),
              static_cast<std::int64_t>(ghost.rays)});
     }
+    std::optional<MeasuredPlan> measured;
+    if (options.measure) {
+        ProgressLine progress("measuring against the reference");
+        request.spectrum = scene.spectrum;
+        measured = measure_plan(loaded.lens, request, image, reference_share * request.tolerance,
+                                {}, [&](double share) { progress(share); });
+    }
+    const PlanReport omitted = plan_report(scene, plan);
+    report.heading += omissions_text(omitted, measured);
+    for (auto& field : omission_fields(omitted, measured)) report.request.push_back(field);
     write_report(report, options.output);
     print_notes(loaded.notes, Note::Severity::warning);
 }
@@ -99,9 +115,12 @@ void add_plan(CLI::App& program) {
         ->capture_default_str();
     add_text(*command, "--width", options->width, "PX", "of the picture, pixels")
         ->capture_default_str();
+    command->add_flag("--measure", options->measure,
+                      "the picture's true error, by a reference; takes from seconds to minutes");
     add_output(*command, options->output);
     command->footer(R"(Examples:
   ghostlight-cli plan tessar_brendel_100_f2.8 --field 10
+  ghostlight-cli plan tessar_brendel_100_f2.8 --field 10 --width 320 --measure
   ghostlight-cli plan nikon_zoom_80_200_f2.8 --field 8 --spectrum D65 --tolerance 0.04 --csv)");
     command->callback([options] { run(*options); });
 }
