@@ -9,6 +9,7 @@
 #include "core/flare/paraxial_flare.h"
 #include "core/flare/planned_flare.h"
 #include "core/flare/reference_image.h"
+#include "core/flare/ringing.h"
 #include "core/ghosts/pupil.h"
 #include "core/ghosts/weighted_grid.h"
 #include "core/parallel.h"
@@ -17,6 +18,8 @@ namespace ghostlight {
 namespace {
 
 constexpr int band_rows = 16;
+/// Where the stop is an image, whose shape is followed from node to node.
+constexpr int coarsest_pictured = 128;
 constexpr double color_margin = 0.04;  ///< of a pupil's breadth, when it is shared by wavelengths
 
 PupilBox widened(const PupilBox& box, double share) {
@@ -116,6 +119,7 @@ ReferenceRequest reference_request(const FlareRequest& request) {
 }  // namespace
 
 bool can_be_planned(const OpticalSystem& system, const LightDirection& light) {
+    if (system.stop_mask.picture) return false;
     return !system.sensor_face || std::abs(std::fmod(light.azimuth_deg, 180.0)) == 90.0;
 }
 
@@ -185,9 +189,11 @@ std::optional<FlareImage> render_uniform(const Prescription& lens, const FlareRe
         const GhostPath& ghost = ghosts[t / samples.size()];
         const auto path = trace_path<float>(system, ghost);
         const auto probe = probe_bundle(system, path, frame, pupil.box);
-        const int cells = request.grid != 0
+        int cells = request.grid != 0
                               ? request.grid
                               : cells_for_bend(probe, request.bend_px * pixels.pitch_mm, reach_mm);
+        if (request.grid == 0 && system.stop_mask.picture)
+            cells = std::max(cells, coarsest_pictured);
         const auto grid = weighted_grid(system, path, frame, pupil.box, probe, cells);
         meshes[t].mesh = ghost_mesh(grid, pixels, 1.0);
         meshes[t].rays = grid.rays() + probe.rays.size();
@@ -252,6 +258,8 @@ std::optional<FlareImage> render_uniform(const Prescription& lens, const FlareRe
     double sum = 0.0;
     for (const float value : image.irradiance) sum += static_cast<double>(value);
     image.flux_on_sensor_mm2 = sum * pixels.pixel_area_mm2();
+    if (request.ringing && !add_ringing(compiled_scene(lens, request), request, stop, image))
+        return std::nullopt;
     image.times.total_ms = ms_since(began);
     return image;
 }

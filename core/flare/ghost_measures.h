@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/flare/color_mesh.h"
+#include "core/flare/flare_plan.h"
 #include "core/ghosts/mirror_grid.h"
 
 namespace ghostlight {
@@ -29,6 +30,9 @@ double roughness(const MirrorGrid& grid, const std::vector<float>& light);
 /// something else stops all their light: there map and weight go as a square root.
 std::vector<int> singular_cells(const MirrorGrid& grid, const MeshNodes& nodes);
 
+/// The light through cells of the half with u ≥ 0 and their mirror images, mm² over E0.
+double light_in(const std::vector<int>& cells, const MeshNodes& nodes);
+
 /// What a probe says of the light that a ghost brings to the frame.
 struct FrameLight {
     double flux_mm2 = 0.0;
@@ -36,5 +40,8 @@ struct FrameLight {
     bool passes = false, near_frame = false;
 };
 FrameLight light_on_frame(const MeshNodes& nodes, const PixelFrame& frame);
+
+/// Where that light lands, on the frame or beside it.
+GhostMoments moments_of(const MeshNodes& nodes, const PixelFrame& frame);
 
 }  // namespace ghostlight
