@@ -1,7 +1,8 @@
 #include "core/flare/probe_all.h"
 
 #include <algorithm>
-#include <numeric>
+#include <array>
+#include <cmath>
 #include <utility>
 
 #include "core/ghosts/incoherent_stack.h"
@@ -10,9 +11,14 @@
 namespace ghostlight {
 namespace {
 
-/// Errors of ghosts cancel in part where they overlap, and the estimates are cautious: what is
-/// granted in all, over what is asked.
-constexpr double granted_share = 0.5;
+/// What is granted in all, over what is asked, by the tolerance: linear between in its logarithm.
+/// At coarse tolerances errors of ghosts cancel where they overlap; at tight ones there is more
+/// that no estimate sees. Calibrated on the bundled lenses, see docs/benchmarks.md.
+struct Granted {
+    double tolerance, share;
+};
+constexpr std::array<Granted, 5> granted = {
+    {{0.003, 0.25}, {0.01, 0.35}, {0.02, 0.5}, {0.04, 0.7}, {0.1, 1.0}}};
 constexpr double most_share = 0.5;  ///< of a ghost's own light
 /// Of the tolerance, for what is left out.
 constexpr double left_out_share = 0.1;
@@ -39,6 +45,17 @@ std::vector<std::size_t> by_bound(const std::vector<ProbedGhost>& ghosts) {
     return order;
 }
 
+double granted_share(double tolerance) {
+    if (tolerance <= granted.front().tolerance) return granted.front().share;
+    for (std::size_t k = 1; k < granted.size(); ++k) {
+        const auto [low, share] = granted[k - 1];
+        const auto [high, next] = granted[k];
+        if (tolerance < high)
+            return std::lerp(share, next, std::log(tolerance / low) / std::log(high / low));
+    }
+    return granted.back().share;
+}
+
 void share_among(std::vector<ProbedGhost>& ghosts, double tolerance) {
     std::vector<ErrorShare> shares;
     double total = 0.0, left_out = 0.0;
@@ -49,8 +66,8 @@ void share_among(std::vector<ProbedGhost>& ghosts, double tolerance) {
         total += shares.back().flux_mm2;
         if (ghost.planned.fate == GhostFate::left_out) left_out += ghost.planned.bound_mm2;
     }
-    const std::vector<double> allowance =
-        share_out(shares, granted_share * std::max(0.0, tolerance * total - left_out), most_share);
+    const std::vector<double> allowance = share_out(
+        shares, granted_share(tolerance) * std::max(0.0, tolerance * total - left_out), most_share);
     for (std::size_t g = 0; g < ghosts.size(); ++g) ghosts[g].planned.allowance_mm2 = allowance[g];
 }
 
