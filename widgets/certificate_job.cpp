@@ -39,7 +39,8 @@ CertificateJob::~CertificateJob() { job_->cancel(); }
 
 void CertificateJob::take_picture(const FlarePicture& picture) {
     const bool is_present = picture.is_final && picture.revision == document_.revision();
-    if (is_present && !picture.image->plan.ghosts.empty() && picture.revision != revision_) {
+    if (is_present && has_plain_ghosts(document_.scene()) && !picture.image->plan.ghosts.empty() &&
+        picture.revision != revision_) {
         image_ = picture.image;
         revision_ = picture.revision;
     }
@@ -76,8 +77,8 @@ void CertificateJob::work(const Task& task, const std::stop_token& stop) {
         // Half of the cores: what the hand does next finds the others free.
         PlanProofRequest request;
         request.threads = std::max(1U, default_thread_count() / 2);
-        const FlareScene scene =
-            flare_scene(task.lens, task.scene.spectrum, FlareScene::usual_samples, request.threads);
+        const FlareScene scene = flare_scene(task.lens, task.scene.light().spectrum,
+                                             FlareScene::usual_samples, request.threads);
         std::atomic<int> reported_percent{-1};
         const auto progress = [&](double share) {
             const int percent = static_cast<int>(share * 100.0);
@@ -86,7 +87,8 @@ void CertificateJob::work(const Task& task, const std::stop_token& stop) {
             }
         };
         for (bool is_last = false; !is_last; request.most_cells *= more_cells) {
-            auto proof = certify(scene, task.scene.light, task.plan, request, stop, progress);
+            auto proof =
+                certify(scene, task.scene.light().direction, task.plan, request, stop, progress);
             if (!proof) {
                 return;
             }

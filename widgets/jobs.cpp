@@ -75,10 +75,22 @@ void Jobs::set_engine(FlareEngine wish) {
     }
 }
 
+Jobs::TableSubject Jobs::table_subject() const {
+    const Scene& scene = document_.scene();
+    return {document_.lens(), scene.configuration, scene.light().direction, scene.light().spectrum,
+            scene.tolerance};
+}
+
 void Jobs::follow_document() {
+    request_flare(true);
+    TableSubject subject = table_subject();
+    const bool is_another_lens = document_.revision() == document_.first_revision();
+    if (!is_another_lens && table_subject_ == subject) {
+        return;  // layers, gains, other lights
+    }
+    table_subject_ = std::move(subject);
     table_job_->cancel();
     table_open_ = true;
-    request_flare(true);
     table_delay_.start();
 }
 
@@ -107,6 +119,7 @@ void Jobs::request_table() {
 void Jobs::cancel_table() {
     table_delay_.stop();
     table_job_->cancel();
+    table_subject_.reset();
     if (table_open_) {
         ++table_serial_;
         Q_EMIT table_cancelled();
@@ -114,18 +127,10 @@ void Jobs::cancel_table() {
     }
 }
 
-const FlareScene& Jobs::compiled(const Snapshot& job) {
-    if (!compiled_ || compiled_->lens != job.lens ||
-        compiled_->scene.spectrum != job.scene.spectrum) {
-        compiled_.reset();
-        compiled_.emplace(job.lens, flare_scene(job.lens, job.scene.spectrum));
-    }
-    return compiled_->scene;
-}
-
-void Jobs::show(FlareImage image, const Snapshot& job, bool is_final, bool is_first_look) {
-    FlarePicture picture{std::make_shared<const FlareImage>(std::move(image)), job.revision,
-                         job.changed_at, is_final, is_first_look};
+void Jobs::show(LayeredPicture::Result made, const Snapshot& job, bool is_final,
+                bool is_first_look) {
+    FlarePicture picture{std::move(made.sum), job.revision,          job.changed_at, is_final,
+                         is_first_look,       std::move(made.layers)};
     QMetaObject::invokeMethod(
         this, [this, picture, serial = job.serial] { take_flare(picture, serial); },
         Qt::QueuedConnection);
@@ -141,32 +146,44 @@ void Jobs::report_engine() {
 }
 
 void Jobs::draw_flare(const Snapshot& job, const std::stop_token& stop) {
-    const FlareScene& scene = compiled(job);
+    const Light& light = job.scene.light();
     FlareRequest request;
-    request.light = job.scene.light;
+    request.light = light.direction;
+    request.spectrum = light.spectrum;
     request.highlighted = job.highlighted;
-    request.spectrum = job.scene.spectrum;
     request.tolerance = job.scene.flare_tolerance;
-    const bool is_planned = can_be_planned(scene.system(), request.light);
+    // Plans of the last picture help the next one of the same light.
+    const bool has_one_light = job.scene.lights.size() == 1;
+    const DrawGhosts draw_ghosts = [&](const FlareScene& scene, const FlareRequest& wanted,
+                                       std::stop_token token) {
+        return engines_.draw(scene, wanted, std::move(token));
+    };
     const auto draw = [&](const FlareRequest& wanted, const std::stop_token& token, bool is_final) {
-        std::optional<FlareImage> image = is_planned ? engines_.draw(scene, wanted, token)
-                                                     : render_flare(job.lens, wanted, token);
-        if (!image) {
+        auto made = layered_.make({job.lens, job.scene, wanted, is_final}, draw_ghosts, token);
+        if (!made) {
             return 0.0;
         }
-        const double took_ms = image->times.total_ms;
-        last_plan_ = is_planned ? std::make_shared<const FlarePlan>(image->plan) : nullptr;
-        show(std::move(*image), job, is_final, false);
+        const double took_ms = made->drawing_ms;
+        last_plan_ = has_one_light ? std::make_shared<const FlarePlan>(made->sum->plan) : nullptr;
+        show(std::move(*made), job, is_final, false);
         return took_ms;
     };
+    if (drawn_with_ != job.engine) {
+        drawn_with_ = job.engine;
+        layered_.forget(LayerKind::ghosts);
+    }
     if (job.first_look) {
         last_plan_ = nullptr;
-        if (auto image = render_paraxial(scene, request)) {
-            show(std::move(*image), job, false, true);
+        if (job.scene.layers.shows(LayerKind::ghosts)) {
+            const FlareScene& scene = layered_.compiled(job.lens, light.spectrum);
+            if (auto image = render_paraxial(scene, request)) {
+                show({std::make_shared<const FlareImage>(std::move(*image)), {}, 0.0}, job, false,
+                     true);
+            }
         }
     }
     engines_.wish(job.engine);
-    if (job.coarse_first) {
+    if (job.coarse_first && !layered_.is_at_rest({job.lens, job.scene, request, true})) {
         FlareRequest rough = request;
         const Coarse& coarse = coarse_pictures[static_cast<std::size_t>(coarseness_)];
         rough.tolerance = coarse.tolerance;
@@ -186,8 +203,13 @@ void Jobs::draw_flare(const Snapshot& job, const std::stop_token& stop) {
         draw(request, stop, true);
     }
     // Nobody waits now. What OpenGL takes over, it draws at once: so it is seen to work.
-    if (is_planned && engines_.settle(scene, request, stop)) {
-        draw(request, stop, true);
+    if (job.scene.layers.shows(LayerKind::ghosts) && !stop.stop_requested()) {
+        const FlareScene& scene = layered_.compiled(job.lens, light.spectrum);
+        if (can_be_planned(scene.system(), request.light) &&
+            engines_.settle(scene, request, stop)) {
+            layered_.forget(LayerKind::ghosts);
+            draw(request, stop, true);
+        }
     }
     report_engine();
 }
@@ -207,8 +229,8 @@ void Jobs::work_on_flare(const Snapshot& job, const std::stop_token& stop) {
 
 void Jobs::work_on_table(const Snapshot& job, const std::stop_token& stop) {
     GhostTableRequest request;
-    request.light = job.scene.light;
-    request.spectrum = job.scene.spectrum;
+    request.light = job.scene.light().direction;
+    request.spectrum = job.scene.light().spectrum;
     request.tolerance = job.scene.tolerance;
     std::atomic<int> reported_percent{-1};
     const Progress progress = [&](double share) {
@@ -264,6 +286,7 @@ void Jobs::take_table(std::shared_ptr<const GhostTable> table, std::uint64_t ser
 
 void Jobs::fail(const QString& reason, std::uint64_t serial, bool& open, std::uint64_t newest) {
     if (serial == newest) {
+        table_subject_.reset();  // whatever comes next may try again
         Q_EMIT failed(reason);
         close(open);
     }

@@ -35,7 +35,9 @@
 #include "widgets/panels/flare_panel.h"
 #include "widgets/panels/ghost_panel.h"
 #include "widgets/panels/import_report_panel.h"
+#include "widgets/panels/layers_strip.h"
 #include "widgets/panels/layout_panel.h"
+#include "widgets/panels/light_panel.h"
 #include "widgets/panels/prescription_panel.h"
 #include "widgets/panels/scene_bar.h"
 #include "widgets/panels/status_line.h"
@@ -57,7 +59,8 @@ MainWindow::MainWindow(bool remembers, MakeGlEngine make_gl)
         document_, actions_, *banner_, *status_,
         {[this] { return ghosts_->model().is_stale() ? nullptr : ghosts_->model().table(); },
          [this] { return picture_ && picture_->is_final ? picture_->image : nullptr; },
-         [this] { return flare_->exposure_ev(); }, [this] { return selection_.ghosts(); }},
+         [this] { return flare_->exposure_ev(); }, [this] { return selection_.ghosts(); },
+         [this] { return picture_ ? picture_->layers : std::vector<ShownLayer>(); }},
         this);
     build_menus();
     connect_document();
@@ -108,6 +111,9 @@ void MainWindow::build_panels() {
     ghosts_ = new GhostPanel(selection_, actions_);
     report_ = new ImportReportPanel(document_, actions_);
     first_order_ = new FirstOrderPanel(document_, actions_);
+    light_ = new LightPanel(document_, selection_);
+    layers_ = new LayersStrip(document_);
+    flare_->set_strip(layers_);
     setCentralWidget(flare_);
     setCorner(Qt::TopLeftCorner, Qt::LeftDockWidgetArea);
     setCorner(Qt::TopRightCorner, Qt::RightDockWidgetArea);
@@ -119,6 +125,7 @@ void MainWindow::build_panels() {
     ghost_dock_ = add_dock(ghosts_, "ghosts", "Ghosts", Qt::RightDockWidgetArea);
     first_order_dock_ =
         add_dock(first_order_, "first_order", "First order", Qt::RightDockWidgetArea);
+    light_dock_ = add_dock(light_, "light", "Light", Qt::RightDockWidgetArea);
     report_dock_ = add_dock(report_, "import_report", "Import report", Qt::BottomDockWidgetArea);
 
     status_ = new StatusLine(document_);
@@ -150,8 +157,8 @@ void MainWindow::build_menus() {
         bar, "&Ghosts",
         {"ghosts.copy", "ghosts.clear", "-", "ghosts.all", "ghosts.above_3", "ghosts.above_2"});
     QMenu* view = actions_.add_menu(bar, "&View", {"view.fit", "view.expose", "-"});
-    for (QDockWidget* dock :
-         {prescription_dock_, layout_dock_, ghost_dock_, first_order_dock_, report_dock_}) {
+    for (QDockWidget* dock : {prescription_dock_, layout_dock_, ghost_dock_, first_order_dock_,
+                              light_dock_, report_dock_}) {
         view->addAction(dock->toggleViewAction());
     }
     actions_.fill(*view, {"view.reset", "-", "report.all", "report.matters", "report.copy",
@@ -166,16 +173,18 @@ void MainWindow::arrange_panels() {
     const struct {
         QDockWidget* dock;
         Qt::DockWidgetArea area;
-    } places[] = {{prescription_dock_, Qt::LeftDockWidgetArea},
-                  {layout_dock_, Qt::TopDockWidgetArea},
-                  {ghost_dock_, Qt::RightDockWidgetArea},
-                  {first_order_dock_, Qt::RightDockWidgetArea},
-                  {report_dock_, Qt::BottomDockWidgetArea}};
+    } places[] = {
+        {prescription_dock_, Qt::LeftDockWidgetArea}, {layout_dock_, Qt::TopDockWidgetArea},
+        {ghost_dock_, Qt::RightDockWidgetArea},       {first_order_dock_, Qt::RightDockWidgetArea},
+        {light_dock_, Qt::RightDockWidgetArea},       {report_dock_, Qt::BottomDockWidgetArea}};
     for (const auto& place : places) {
         place.dock->setFloating(false);
         addDockWidget(place.area, place.dock);
         place.dock->show();
     }
+    // Two that are seldom wanted together share a place.
+    tabifyDockWidget(first_order_dock_, light_dock_);
+    first_order_dock_->raise();
     // First-order data take a third of the right side; the report comes when it has something
     // to say.
     report_dock_->setVisible(report_->model().rowCount() > 0);
@@ -212,21 +221,26 @@ void MainWindow::connect_document() {
             selection_.set_ghosts({});
         }
         flare_->set_dimmed(true);
-        ghosts_->set_refining(0.0);
+        if (jobs_->awaits_table()) {
+            ghosts_->set_refining(0.0);
+        }
         scene_update_.start();
     });
     connect(&document_, &Document::file_changed, this, &MainWindow::show_title);
     connect(&selection_, &Selection::ghosts_changed, &scene_update_, qOverload<>(&QTimer::start));
     connect(flare_, &FlarePanel::light_dragged, this, [this](const LightDirection& light) {
         Scene scene = document_.scene();
-        scene.light = light;
+        scene.light().direction = light;
         document_.edit_scene(scene, "move the light", "light");
     });
     connect(layout_, &LayoutPanel::surface_hovered, prescription_,
             &PrescriptionPanel::set_hovered_row);
-    connect(scene_bar_, &SceneBar::refused, this, [this](const QString& reason) {
+    const auto say = [this](const QString& reason) {
         reason.isEmpty() ? banner_->clear("scene") : banner_->show_text("scene", reason);
-    });
+    };
+    connect(scene_bar_, &SceneBar::refused, this, say);
+    connect(light_, &LightPanel::refused, this, say);
+    connect(layers_, &LayersStrip::refused, this, say);
 }
 
 void MainWindow::connect_jobs() {
@@ -390,10 +404,10 @@ void MainWindow::show_scene() {
     }
     try {
         const Prescription lens = document_.configured_lens();
-        layout_->show_lens(lens, document_.scene().light, drawing_wavelength_nm(document_.scene()),
-                           selection_.ghosts());
+        layout_->show_lens(lens, document_.scene().light().direction,
+                           drawing_wavelength_nm(document_.scene()), selection_.ghosts());
         const double efl_mm = first_order(compile(lens, d_line_nm)).efl_mm;
-        flare_->set_light(document_.scene().light, efl_mm);
+        flare_->set_light(document_.scene().light().direction, efl_mm);
     } catch (const Error& error) {
         show_failure(error.what());
     }

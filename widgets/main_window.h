@@ -22,7 +22,9 @@ class FirstOrderPanel;
 class FlarePanel;
 class GhostPanel;
 class ImportReportPanel;
+class LayersStrip;
 class LayoutPanel;
+class LightPanel;
 class PrescriptionPanel;
 class SceneBar;
 class StatusLine;
@@ -58,6 +60,8 @@ class MainWindow : public QMainWindow {
     GhostPanel& ghost_panel() { return *ghosts_; }
     ImportReportPanel& import_report_panel() { return *report_; }
     FirstOrderPanel& first_order_panel() { return *first_order_; }
+    LightPanel& light_panel() { return *light_; }
+    LayersStrip& layers_strip() { return *layers_; }
     const std::optional<FlarePicture>& picture() const { return picture_; }
 
    Q_SIGNALS:
@@ -107,6 +111,8 @@ class MainWindow : public QMainWindow {
     GhostPanel* ghosts_ = nullptr;
     ImportReportPanel* report_ = nullptr;
     FirstOrderPanel* first_order_ = nullptr;
+    LightPanel* light_ = nullptr;
+    LayersStrip* layers_ = nullptr;
     StatusLine* status_ = nullptr;
     Banner* banner_ = nullptr;
     FileActions* files_ = nullptr;
@@ -115,6 +121,7 @@ class MainWindow : public QMainWindow {
     QDockWidget* ghost_dock_ = nullptr;
     QDockWidget* report_dock_ = nullptr;
     QDockWidget* first_order_dock_ = nullptr;
+    QDockWidget* light_dock_ = nullptr;
 
     QTimer scene_update_;  ///< many changes, one drawing
     std::optional<FlarePicture> picture_;

@@ -7,6 +7,7 @@
 #include "core/flare/draw_picture.h"
 #include "core/flare/planned_ghost.h"
 #include "core/flare/probe_all.h"
+#include "core/flare/ringing.h"
 #include "core/parallel.h"
 
 namespace ghostlight {
@@ -56,6 +57,7 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
         image.rays += probed[g].planned.rays;
     }
     image.plan = plan_of(scene, request, probed);
+    if (request.ringing && !add_ringing(scene, request, stop, image)) return std::nullopt;
     image.times.total_ms = ms_since(began);
     return image;
 }

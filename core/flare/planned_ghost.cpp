@@ -268,6 +268,15 @@ void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
     choose_level(chosen, mesh.edge_contrast * placement_.frame().pixel_area_mm2(), planned);
 }
 
+MeshNodes GhostPlanner::landed(const ProbedGhost& ghost) const {
+    MeshNodes nodes = placement_.place(ghost.grid);
+    interpolate(ghost.grid,
+                ray_light<color_channels>(scene_, ghost.grid, ghost.weights,
+                                          channel_shares<color_channels>(scene_, 0, 1)),
+                color_channels, nodes.cells, nodes.weights);
+    return nodes;
+}
+
 GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
     PlannedGhost& planned = ghost.planned;
     const Fineness chosen = choose(ghost);

@@ -56,6 +56,9 @@ class GhostPlanner {
     template <int C>
     void draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const;
 
+    /// The probe's rays as they land on the sensor, with their light in four channels a node.
+    MeshNodes landed(const ProbedGhost& ghost) const;
+
     /// The same choices, its level from the first look, for an engine that traces and draws for
     /// itself.
     GhostDrawing prepare(ProbedGhost& ghost) const;

@@ -19,7 +19,7 @@ struct CertificateJobTest : testing::Test {
         ASSERT_FALSE(document.open(test::bundled(file)));
         Scene scene = document.scene();
         scene.tolerance = 0.5;
-        scene.spectrum = Monochromatic{};
+        scene.light().spectrum = Monochromatic{};
         document.edit_scene(scene, "make it cheap", "tolerance");
     }
     bool wait_for_proofs(std::size_t count) {
@@ -53,7 +53,7 @@ TEST_F(CertificateJobTest, AnEditEndsTheProofAndTheNextIsOfTheNewPicture) {
     ASSERT_TRUE(proofs.empty());
     const auto withdrawals = withdrawn.count();
     Scene scene = document.scene();
-    scene.light.field_deg = 1.0;
+    scene.light().direction.field_deg = 1.0;
     document.edit_scene(scene, "move the light", "light");
     EXPECT_GT(withdrawn.count(), withdrawals);
     EXPECT_FALSE(certificate.is_busy());

@@ -47,7 +47,7 @@ bool says(const StatusLine& status, const char* words) {
 
 void move_light(MainWindow& window, double field_deg) {
     Scene scene = window.document().scene();
-    scene.light.field_deg = field_deg;
+    scene.light().direction.field_deg = field_deg;
     window.document().edit_scene(scene, "move the light", "light");
 }
 

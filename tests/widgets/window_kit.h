@@ -36,7 +36,7 @@ struct OpenWindow {
     void loosen() {
         Scene scene = window.document().scene();
         scene.tolerance = 0.5;
-        scene.spectrum = Monochromatic{};
+        scene.light().spectrum = Monochromatic{};
         window.document().edit_scene(scene, "make the table cheap", "tolerance");
     }
     bool settle() { return wait_until_settled(window, patience_ms); }
