@@ -15,6 +15,8 @@ void add_glasses(CLI::App& program);
 void add_ghosts(CLI::App& program);
 void add_render(CLI::App& program);
 void add_starburst(CLI::App& program);
+void add_synth(CLI::App& program);
+void add_fit(CLI::App& program);
 void add_plan(CLI::App& program);
 void add_veil(CLI::App& program);
 void add_composite(CLI::App& program);

@@ -70,6 +70,8 @@ int run(std::vector<std::string> arguments) {
     add_ghosts(program);
     add_render(program);
     add_starburst(program);
+    add_synth(program);
+    add_fit(program);
     add_plan(program);
     add_veil(program);
     add_composite(program);

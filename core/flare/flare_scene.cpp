@@ -14,16 +14,6 @@ constexpr int geometry_nodes = 3;
 
 double inverse_square(double nm) { return 1.0 / (nm * nm); }
 
-std::vector<double> geometry_wavelengths_nm() {
-    const double low = inverse_square(longest_nm), high = inverse_square(shortest_nm);
-    std::vector<double> wavelengths;
-    for (int k = 0; k < geometry_nodes; ++k) {
-        const double at = std::cos(std::numbers::pi * (2 * k + 1) / (2.0 * geometry_nodes));
-        wavelengths.push_back(1.0 / std::sqrt(0.5 * (low + high) + 0.5 * (high - low) * at));
-    }
-    return wavelengths;
-}
-
 std::vector<OpticalSystem> compiled(const Prescription& lens,
                                     const std::vector<double>& wavelengths_nm) {
     std::vector<OpticalSystem> systems;
@@ -33,7 +23,18 @@ std::vector<OpticalSystem> compiled(const Prescription& lens,
 
 }  // namespace
 
-std::vector<double> FlareScene::interpolation(double wavelength_nm) const {
+std::vector<double> geometry_wavelengths_nm(const std::vector<SpectralSample>& samples) {
+    if (samples.size() == 1) return {samples.front().wavelength_nm};
+    const double low = inverse_square(longest_nm), high = inverse_square(shortest_nm);
+    std::vector<double> wavelengths;
+    for (int k = 0; k < geometry_nodes; ++k) {
+        const double at = std::cos(std::numbers::pi * (2 * k + 1) / (2.0 * geometry_nodes));
+        wavelengths.push_back(1.0 / std::sqrt(0.5 * (low + high) + 0.5 * (high - low) * at));
+    }
+    return wavelengths;
+}
+
+std::vector<double> node_shares(const std::vector<OpticalSystem>& geometry, double wavelength_nm) {
     std::vector<double> shares(geometry.size(), 1.0);
     const double at = inverse_square(wavelength_nm);
     for (std::size_t i = 0; i < geometry.size(); ++i)
@@ -45,6 +46,10 @@ std::vector<double> FlareScene::interpolation(double wavelength_nm) const {
     return shares;
 }
 
+std::vector<double> FlareScene::interpolation(double wavelength_nm) const {
+    return node_shares(geometry, wavelength_nm);
+}
+
 FlareScene flare_scene(const Prescription& lens, const Spectrum& spectrum, int spectral_samples,
                        unsigned threads, CoatingModel model) {
     const auto samples = sample(spectrum, spectral_samples);
@@ -52,7 +57,7 @@ FlareScene flare_scene(const Prescription& lens, const Spectrum& spectrum, int s
     for (const SpectralSample& s : samples) weight_nm.push_back(s.wavelength_nm);
     const std::optional<double> line = line_nm(spectrum);
     std::vector<OpticalSystem> geometry =
-        compiled(lens, line ? std::vector<double>{*line} : geometry_wavelengths_nm());
+        compiled(lens, line ? std::vector<double>{*line} : geometry_wavelengths_nm(samples));
     const std::size_t main = geometry.size() / 2;
     std::vector<GhostPath> ghosts = two_reflection_ghosts(geometry[main]);
     return {.spectrum = spectrum,

@@ -36,6 +36,12 @@ struct FlareScene {
     std::vector<double> interpolation(double wavelength_nm) const;
 };
 
+/// Where a spectrum's geometry is traced: its one wavelength, or three Chebyshev nodes in 1/λ².
+std::vector<double> geometry_wavelengths_nm(const std::vector<SpectralSample>& samples);
+
+/// Shares of the positions at the wavelengths of `geometry` in the one at another wavelength.
+std::vector<double> node_shares(const std::vector<OpticalSystem>& geometry, double wavelength_nm);
+
 /// Compiles. Throws Error like compile().
 FlareScene flare_scene(const Prescription& lens, const Spectrum& spectrum,
                        int spectral_samples = FlareScene::usual_samples, unsigned threads = 0,

@@ -11,6 +11,10 @@ float srgb_encoded(float linear) {
     return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
 }
 
+float srgb_decoded(float encoded) {
+    return encoded <= 0.04045F ? encoded / 12.92F : std::pow((encoded + 0.055F) / 1.055F, 2.4F);
+}
+
 std::array<float, 3> tone_mapped(std::array<float, 3> linear, double exposure_ev) {
     const float scale = static_cast<float>(std::exp2(exposure_ev));
     float largest = 0.0f;

@@ -7,6 +7,9 @@ namespace ghostlight {
 /// sRGB's encoding of a linear value, 0 to 1 (IEC 61966-2-1).
 float srgb_encoded(float linear);
 
+/// Its inverse.
+float srgb_decoded(float encoded);
+
 /// Up to here a display value is the linear one.
 inline constexpr float tone_shoulder = 0.8f;
 

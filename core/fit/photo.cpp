@@ -1,0 +1,269 @@
+#include "core/fit/photo.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+namespace ghostlight {
+namespace {
+
+double median(std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+float brightest(const float* rgb) { return std::max({rgb[0], rgb[1], rgb[2]}); }
+
+[[noreturn]] void fail(const Photo& photo, std::string problem, std::string found,
+                       std::string expected) {
+    throw Error({.problem = std::move(problem),
+                 .file = photo.file,
+                 .where = {},
+                 .found = std::move(found),
+                 .expected = std::move(expected)});
+}
+
+}  // namespace
+
+PhotoNoise estimated_noise(const Photo& photo) {
+    // Of a normal distribution the median of |a − 2b + c| is 0.6745 σ √6.
+    constexpr double of_second_difference = 0.6745 * 2.449489742783178;
+    constexpr int bins = 24;
+    std::vector<float> levels;
+    for (std::size_t i = 0; i < photo.pixels(); i += 7)
+        if (photo.masked.empty() || !photo.masked[i]) levels.push_back(photo.rgb[3 * i + 1]);
+    if (levels.empty()) return {.shot = 0.0, .read = 1e-12, .estimated = true};
+    std::ranges::sort(levels);
+    std::array<std::vector<double>, bins> differences, means;
+    // A million pixels tell enough.
+    const int step = 1 + static_cast<int>(photo.pixels() / 1'000'000);
+    for (int row = 0; row < photo.height_px; row += step)
+        for (int column = 1; column + 1 < photo.width_px; ++column) {
+            const auto i =
+                static_cast<std::size_t>(row) * static_cast<std::size_t>(photo.width_px) +
+                static_cast<std::size_t>(column);
+            if (!photo.masked.empty() &&
+                (photo.masked[i - 1] || photo.masked[i] || photo.masked[i + 1]))
+                continue;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double a = photo.rgb[3 * (i - 1) + c], b = photo.rgb[3 * i + c],
+                             d = photo.rgb[3 * (i + 1) + c];
+                const double mean = (a + b + d) / 3.0;
+                const auto place = std::ranges::lower_bound(levels, static_cast<float>(mean));
+                const auto bin = std::min<std::size_t>(
+                    bins - 1,
+                    bins * static_cast<std::size_t>(place - levels.begin()) / levels.size());
+                differences[bin].push_back(std::abs(a - 2.0 * b + d));
+                means[bin].push_back(mean);
+            }
+        }
+    // Least squares of variance = shot × level + read, each bin weighted by 1/variance².
+    double s = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
+    for (std::size_t k = 0; k < bins; ++k) {
+        if (differences[k].size() < 30) continue;
+        const double sigma = median(differences[k]) / of_second_difference;
+        const double level = std::max(0.0, median(means[k]));
+        const double variance = std::max(sigma * sigma, 1e-16);
+        const double w = 1.0 / (variance * variance);
+        s += w;
+        sx += w * level;
+        sy += w * variance;
+        sxx += w * level * level;
+        sxy += w * level * variance;
+    }
+    if (!(s > 0.0)) return {.shot = 0.0, .read = 1e-12, .estimated = true};
+    const double determinant = s * sxx - sx * sx;
+    double shot = determinant > 0.0 ? (s * sxy - sx * sy) / determinant : 0.0;
+    shot = std::max(0.0, shot);
+    const double read = std::max((sy - shot * sx) / s, 1e-12);
+    return {.shot = shot, .read = read, .estimated = true};
+}
+
+MaskCounts mask_unusable(Photo& photo) {
+    MaskCounts counts;
+    const std::size_t pixels = photo.pixels();
+    photo.masked.resize(pixels, 0);
+    std::vector<char> clipped(pixels, 0);
+    float highest = 0.0F;
+    for (std::size_t i = 0; i < pixels; ++i) {
+        float* rgb = &photo.rgb[3 * i];
+        if (!std::isfinite(rgb[0] + rgb[1] + rgb[2])) {
+            photo.masked[i] = 1;
+            rgb[0] = rgb[1] = rgb[2] = 0.0F;
+            ++counts.not_a_number;
+            continue;
+        }
+        highest = std::max(highest, brightest(rgb));
+        if (static_cast<double>(brightest(rgb)) >= photo.saturation) {
+            clipped[i] = 1;
+            ++counts.saturated;
+        }
+    }
+    if (counts.not_a_number == pixels)
+        fail(photo, "the photograph has no pixel that is a number", "NaN or infinite everywhere",
+             "linear values; is the file complete?");
+    if (!(highest > 0.0F))
+        fail(photo, "the photograph is all black", "no value above 0",
+             "a photograph with a bright light and its flare; a longer exposure");
+    // Light spills into the neighbours of what is clipped.
+    for (int row = 0; row < photo.height_px; ++row)
+        for (int column = 0; column < photo.width_px; ++column)
+            for (int dy = -1; dy <= 1; ++dy)
+                for (int dx = -1; dx <= 1; ++dx) {
+                    const int x = column + dx, y = row + dy;
+                    if (x < 0 || y < 0 || x >= photo.width_px || y >= photo.height_px) continue;
+                    const auto w = static_cast<std::size_t>(photo.width_px);
+                    if (clipped[static_cast<std::size_t>(y) * w + static_cast<std::size_t>(x)])
+                        photo.masked[static_cast<std::size_t>(row) * w +
+                                     static_cast<std::size_t>(column)] = 1;
+                }
+    if (counts.saturated + counts.not_a_number == pixels)
+        fail(photo, "the photograph is saturated everywhere",
+             fmt::format("every pixel at {:.4g} or above", photo.saturation), "a shorter exposure");
+    if (photo.noise.read > 0.0 || photo.noise.shot > 0.0) {
+        for (int row = 1; row + 1 < photo.height_px; ++row)
+            for (int column = 1; column + 1 < photo.width_px; ++column) {
+                const auto w = static_cast<std::size_t>(photo.width_px);
+                const auto i = static_cast<std::size_t>(row) * w + static_cast<std::size_t>(column);
+                if (photo.masked[i]) continue;
+                for (std::size_t c = 0; c < 3; ++c) {
+                    float most = -std::numeric_limits<float>::infinity();
+                    for (const std::size_t k :
+                         {i - 1, i + 1, i - w, i + w, i - w - 1, i - w + 1, i + w - 1, i + w + 1})
+                        most = std::max(most, photo.rgb[3 * k + c]);
+                    const double value = photo.rgb[3 * i + c];
+                    const double sigma =
+                        std::sqrt(photo.noise.shot * std::max(0.0, static_cast<double>(most)) +
+                                  photo.noise.read);
+                    if (value - static_cast<double>(most) > 10.0 * sigma &&
+                        value > 1.5 * static_cast<double>(most)) {
+                        photo.masked[i] = 1;
+                        ++counts.hot;
+                        break;
+                    }
+                }
+            }
+    }
+    return counts;
+}
+
+Photo merged(const std::vector<Photo>& exposures) {
+    if (exposures.empty()) throw Error("no photographs to merge");
+    double longest_s = 0.0;
+    for (const Photo& each : exposures) {
+        if (!each.exposure_s || !(*each.exposure_s > 0.0))
+            fail(each, "bracketed exposures are merged by their exposure times", "none in the file",
+                 "EXIF data with the exposure time, or photographs that are merged already");
+        if (each.width_px != exposures.front().width_px ||
+            each.height_px != exposures.front().height_px)
+            fail(each, "bracketed exposures differ in size",
+                 fmt::format("{} x {} pixels", each.width_px, each.height_px),
+                 fmt::format("{} x {}, as the first", exposures.front().width_px,
+                             exposures.front().height_px));
+        longest_s = std::max(longest_s, *each.exposure_s);
+    }
+    Photo sum = exposures.front();
+    sum.saturation = std::numeric_limits<double>::infinity();
+    double shot = 0.0, read = 0.0;
+    for (std::size_t i = 0; i < sum.pixels(); ++i) {
+        std::array<double, 3> total{}, weights{};
+        for (const Photo& each : exposures) {
+            if (!each.masked.empty() && each.masked[i]) continue;
+            const double scale = longest_s / *each.exposure_s;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double value = each.rgb[3 * i + c];
+                const double variance =
+                    scale * scale * (each.noise.shot * std::max(0.0, value) + each.noise.read);
+                const double w = 1.0 / std::max(variance, 1e-30);
+                total[c] += w * scale * value;
+                weights[c] += w;
+            }
+        }
+        sum.masked.resize(sum.pixels(), 0);
+        sum.masked[i] = weights[0] > 0.0 ? 0 : 1;
+        for (std::size_t c = 0; c < 3; ++c)
+            sum.rgb[3 * i + c] =
+                weights[c] > 0.0 ? static_cast<float>(total[c] / weights[c]) : 0.0F;
+    }
+    // In the dim parts, which is most of a flare, all exposures count.
+    for (const Photo& each : exposures) {
+        const double scale = longest_s / *each.exposure_s;
+        shot += 1.0 / std::max(scale * each.noise.shot, 1e-30);
+        read += 1.0 / std::max(scale * scale * each.noise.read, 1e-30);
+    }
+    sum.noise = {
+        .shot = 1.0 / shot, .read = 1.0 / read, .estimated = exposures.front().noise.estimated};
+    sum.exposure_s = longest_s;
+    return sum;
+}
+
+LightSpot find_light(const Photo& photo) {
+    float highest = 0.0F;
+    double mean = 0.0;
+    for (std::size_t i = 0; i < photo.pixels(); ++i) {
+        const float value = brightest(&photo.rgb[3 * i]);
+        highest = std::max(highest, value);
+        mean += static_cast<double>(value);
+    }
+    mean /= static_cast<double>(photo.pixels());
+    // What is clipped, or what is at least half as bright as the brightest: ghosts may be bright,
+    // but they do not clip where the light does not.
+    const bool clipped = static_cast<double>(highest) >= photo.saturation;
+    const double limit = clipped ? photo.saturation : 0.5 * static_cast<double>(highest);
+    if (!(limit > 3.0 * mean) && !clipped)
+        fail(
+            photo, "no light stands out in the photograph",
+            fmt::format("brightest value {:.3g}, mean {:.3g}", highest, mean),
+            "a light in the frame, or its place given as --light X,Y or --light deg:FIELD:AZIMUTH");
+    std::vector<char> seen(photo.pixels(), 0);
+    LightSpot best;
+    const auto w = static_cast<std::size_t>(photo.width_px);
+    for (std::size_t start = 0; start < photo.pixels(); ++start) {
+        if (seen[start] || static_cast<double>(brightest(&photo.rgb[3 * start])) < limit) continue;
+        std::queue<std::size_t> open;
+        open.push(start);
+        seen[start] = 1;
+        double sx = 0.0, sy = 0.0;
+        std::size_t count = 0;
+        while (!open.empty()) {
+            const std::size_t i = open.front();
+            open.pop();
+            const auto column = i % w, row = i / w;
+            sx += static_cast<double>(column) + 0.5;
+            sy += static_cast<double>(row) + 0.5;
+            ++count;
+            auto visit = [&](std::size_t k) {
+                if (seen[k] || static_cast<double>(brightest(&photo.rgb[3 * k])) < limit) return;
+                seen[k] = 1;
+                open.push(k);
+            };
+            if (column > 0) visit(i - 1);
+            if (column + 1 < w) visit(i + 1);
+            if (row > 0) visit(i - w);
+            if (row + 1 < static_cast<std::size_t>(photo.height_px)) visit(i + w);
+        }
+        if (count > best.pixels)
+            best = {.column = sx / static_cast<double>(count),
+                    .row = sy / static_cast<double>(count),
+                    .radius_px = std::sqrt(static_cast<double>(count) / 3.14159265358979),
+                    .pixels = count};
+    }
+    return best;
+}
+
+void mask_disc(Photo& photo, double column, double row, double radius_px) {
+    photo.masked.resize(photo.pixels(), 0);
+    for (int y = 0; y < photo.height_px; ++y)
+        for (int x = 0; x < photo.width_px; ++x)
+            if (std::hypot(x + 0.5 - column, y + 0.5 - row) <= radius_px)
+                photo
+                    .masked[static_cast<std::size_t>(y) * static_cast<std::size_t>(photo.width_px) +
+                            static_cast<std::size_t>(x)] = 1;
+}
+
+}  // namespace ghostlight
