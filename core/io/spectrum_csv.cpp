@@ -41,7 +41,7 @@ TabulatedLight spectrum_from_csv(std::string_view text, const std::filesystem::p
         if (line.words.size() < 2)
             refuse(file, line.where(), "a line with one value",
                    std::string(line.text.substr(0, 40)), "a wavelength in nm and a power");
-        const auto nm = real_number(line.words[0]), power = real_number(line.words[1]);
+        const auto nm = parse_number(line.words[0]), power = parse_number(line.words[1]);
         if (!nm || !power)
             refuse(file, line.where(), "not a number",
                    std::string(line.words[nm ? 1 : 0].substr(0, 40)),
