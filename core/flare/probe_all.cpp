@@ -123,8 +123,11 @@ FlarePlan plan_of(const FlareScene& scene, const FlareRequest& request,
     FlarePlan plan;
     plan.tolerance = request.tolerance;
     plan.not_modelled = higher_order_share(scene.system());
+    // What is granted beyond what is asked is what the estimates are too cautious by.
+    const double caution = std::max(1.0, granted_share(request.tolerance));
     for (ProbedGhost& ghost : ghosts) {
         PlannedGhost& planned = ghost.planned;
+        planned.error_mm2 /= caution;
         plan.flux_mm2 += planned.flux_mm2;
         plan.error_mm2 += planned.error_mm2;
         if (planned.fate == GhostFate::left_out) plan.left_out_mm2 += planned.bound_mm2;
