@@ -76,12 +76,12 @@ TEST(Photo, UnusablePicturesAreRefused) {
 
 TEST(Photo, HotPixelsAndNaNsAreMasked) {
     Photo photo = noisy_photo(1e-6, 1e-8);
-    photo.rgb[3 * 50'000] = 0.99F;
+    photo.rgb[3 * 50'123] = 0.99F;
     photo.rgb[3 * 70'000 + 1] = std::numeric_limits<float>::quiet_NaN();
     const MaskCounts counts = mask_unusable(photo);
     EXPECT_EQ(counts.hot, 1U);
     EXPECT_EQ(counts.not_a_number, 1U);
-    EXPECT_TRUE(photo.masked[50'000]);
+    EXPECT_TRUE(photo.masked[50'123]);
     EXPECT_TRUE(photo.masked[70'000]);
     EXPECT_EQ(photo.rgb[3 * 70'000 + 1], 0.0F);
 }
