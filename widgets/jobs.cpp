@@ -152,6 +152,7 @@ void Jobs::draw_flare(const Snapshot& job, const std::stop_token& stop) {
     request.spectrum = light.spectrum;
     request.highlighted = job.highlighted;
     request.tolerance = job.scene.flare_tolerance;
+    request.ringing = job.scene.ringing;
     // Plans of the last picture help the next one of the same light.
     const bool has_one_light = job.scene.lights.size() == 1;
     const DrawGhosts draw_ghosts = [&](const FlareScene& scene, const FlareRequest& wanted,
@@ -187,6 +188,7 @@ void Jobs::draw_flare(const Snapshot& job, const std::stop_token& stop) {
         FlareRequest rough = request;
         const Coarse& coarse = coarse_pictures[static_cast<std::size_t>(coarseness_)];
         rough.tolerance = coarse.tolerance;
+        rough.ringing = false;
         rough.width_px = coarse.width_px;
         rough.search = ProbeSearch::quick;
         rough.nearby = last_plan_;

@@ -19,6 +19,7 @@ Scene what_matters(LayerKind kind, const Scene& scene) {
     const bool folds = scene.veil.folded_share > 0.0 && scene.layers.shows(LayerKind::veil);
     key.layers = {};
     key.tolerance = key.flare_tolerance = 0.0;
+    key.ringing = scene.ringing && kind == LayerKind::ghosts;
     for (Light& light : key.lights) {
         light.name.clear();
     }

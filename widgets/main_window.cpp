@@ -41,6 +41,7 @@
 #include "widgets/panels/prescription_panel.h"
 #include "widgets/panels/scene_bar.h"
 #include "widgets/panels/status_line.h"
+#include "widgets/panels/stop_panel.h"
 #include "widgets/settings.h"
 #include "widgets/unknown_glass.h"
 
@@ -111,6 +112,7 @@ void MainWindow::build_panels() {
     ghosts_ = new GhostPanel(selection_, actions_);
     report_ = new ImportReportPanel(document_, actions_);
     first_order_ = new FirstOrderPanel(document_, actions_);
+    stop_ = new StopPanel(document_, actions_);
     light_ = new LightPanel(document_, selection_);
     layers_ = new LayersStrip(document_);
     flare_->set_strip(layers_);
@@ -125,6 +127,7 @@ void MainWindow::build_panels() {
     ghost_dock_ = add_dock(ghosts_, "ghosts", "Ghosts", Qt::RightDockWidgetArea);
     first_order_dock_ =
         add_dock(first_order_, "first_order", "First order", Qt::RightDockWidgetArea);
+    stop_dock_ = add_dock(stop_, "stop", "Stop", Qt::RightDockWidgetArea);
     light_dock_ = add_dock(light_, "light", "Light", Qt::RightDockWidgetArea);
     report_dock_ = add_dock(report_, "import_report", "Import report", Qt::BottomDockWidgetArea);
 
@@ -158,7 +161,7 @@ void MainWindow::build_menus() {
         {"ghosts.copy", "ghosts.clear", "-", "ghosts.all", "ghosts.above_3", "ghosts.above_2"});
     QMenu* view = actions_.add_menu(bar, "&View", {"view.fit", "view.expose", "-"});
     for (QDockWidget* dock : {prescription_dock_, layout_dock_, ghost_dock_, first_order_dock_,
-                              light_dock_, report_dock_}) {
+                              stop_dock_, light_dock_, report_dock_}) {
         view->addAction(dock->toggleViewAction());
     }
     actions_.fill(*view, {"view.reset", "-", "report.all", "report.matters", "report.copy",
@@ -176,14 +179,16 @@ void MainWindow::arrange_panels() {
     } places[] = {
         {prescription_dock_, Qt::LeftDockWidgetArea}, {layout_dock_, Qt::TopDockWidgetArea},
         {ghost_dock_, Qt::RightDockWidgetArea},       {first_order_dock_, Qt::RightDockWidgetArea},
-        {light_dock_, Qt::RightDockWidgetArea},       {report_dock_, Qt::BottomDockWidgetArea}};
+        {stop_dock_, Qt::RightDockWidgetArea},        {light_dock_, Qt::RightDockWidgetArea},
+        {report_dock_, Qt::BottomDockWidgetArea}};
     for (const auto& place : places) {
         place.dock->setFloating(false);
         addDockWidget(place.area, place.dock);
         place.dock->show();
     }
-    // Two that are seldom wanted together share a place.
-    tabifyDockWidget(first_order_dock_, light_dock_);
+    // Those that are seldom wanted together share a place.
+    tabifyDockWidget(first_order_dock_, stop_dock_);
+    tabifyDockWidget(stop_dock_, light_dock_);
     first_order_dock_->raise();
     // First-order data take a third of the right side; the report comes when it has something
     // to say.
@@ -394,7 +399,8 @@ void MainWindow::offer_recovery() {
 bool MainWindow::open(const std::filesystem::path& file) { return files_->open(file); }
 
 bool MainWindow::is_settled() const {
-    return !jobs_->is_busy() && !scene_update_.isActive() && first_order_->is_settled();
+    return !jobs_->is_busy() && !scene_update_.isActive() && first_order_->is_settled() &&
+           stop_->is_settled();
 }
 
 void MainWindow::show_scene() {

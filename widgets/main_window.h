@@ -28,6 +28,7 @@ class LightPanel;
 class PrescriptionPanel;
 class SceneBar;
 class StatusLine;
+class StopPanel;
 
 /// The workbench: panels around one document. It only puts together; what each part does is in
 /// its own file.
@@ -60,6 +61,7 @@ class MainWindow : public QMainWindow {
     GhostPanel& ghost_panel() { return *ghosts_; }
     ImportReportPanel& import_report_panel() { return *report_; }
     FirstOrderPanel& first_order_panel() { return *first_order_; }
+    StopPanel& stop_panel() { return *stop_; }
     LightPanel& light_panel() { return *light_; }
     LayersStrip& layers_strip() { return *layers_; }
     const std::optional<FlarePicture>& picture() const { return picture_; }
@@ -111,6 +113,7 @@ class MainWindow : public QMainWindow {
     GhostPanel* ghosts_ = nullptr;
     ImportReportPanel* report_ = nullptr;
     FirstOrderPanel* first_order_ = nullptr;
+    StopPanel* stop_ = nullptr;
     LightPanel* light_ = nullptr;
     LayersStrip* layers_ = nullptr;
     StatusLine* status_ = nullptr;
@@ -121,6 +124,7 @@ class MainWindow : public QMainWindow {
     QDockWidget* ghost_dock_ = nullptr;
     QDockWidget* report_dock_ = nullptr;
     QDockWidget* first_order_dock_ = nullptr;
+    QDockWidget* stop_dock_ = nullptr;
     QDockWidget* light_dock_ = nullptr;
 
     QTimer scene_update_;  ///< many changes, one drawing

@@ -30,6 +30,7 @@ struct RenderOptions {
     MethodOptions method;
     std::string width = "1280", exposure, per_ghost;
     bool ringing = false;
+    std::string only;
     OutputOptions output;  ///< its file is the picture
 };
 
@@ -142,12 +143,13 @@ FlareImage composed(const Scene& scene, SceneLayers& layers) {
 }
 
 /// "5-3 (N 812, 2.3 px), …": which ghosts got their fringes.
-std::string rung_ghosts(const FlareImage& image) {
+std::string rung_ghosts(const SceneLayers& drawn) {
     std::vector<std::string> texts;
-    for (const RungGhost& ghost : image.ringing)
-        texts.push_back(fmt::format("{} (N {:.3g}, {:.2g} px{})", name(ghost.path),
-                                    ghost.fresnel_number, ghost.first_fringe_px,
-                                    ghost.propagated ? ", whole mask" : ""));
+    for (const FlareImage& image : drawn.images)
+        for (const RungGhost& ghost : image.ringing)
+            texts.push_back(fmt::format("{} (N {:.3g}, {:.2g} px{})", name(ghost.path),
+                                        ghost.fresnel_number, ghost.first_fringe_px,
+                                        ghost.propagated ? ", whole mask" : ""));
     return texts.empty() ? "none" : joined(texts, "; ");
 }
 
@@ -170,6 +172,13 @@ void run(const RenderOptions& options) {
     }
     const LoadedLens loaded = load_lens(options.lens);
     const Scene scene = scene_of(options.scene, loaded);
+    request.ringing = request.ringing || scene.ringing;
+    if (!options.only.empty()) {
+        const OpticalSystem system = compile(loaded.lens, d_line_nm);
+        for (const std::string_view ghost : split(options.only, ','))
+            request.only.push_back(
+                read_option("--only", [&] { return parse_ghost(ghost, system); }));
+    }
     request.light = scene.light().direction;
     request.spectrum = scene.light().spectrum;
     if (per_ghost > 0 && !has_plain_ghosts(scene))
@@ -233,7 +242,7 @@ void run(const RenderOptions& options) {
          all_names.empty() ? Cell() : Cell(joined(all_names, " ")),
          std::string(method_name(request.method)), of_plan(&FlarePlan::estimated_error),
          of_plan(&FlarePlan::left_out_share), of_plan(&FlarePlan::not_modelled),
-         request.ringing ? Cell(rung_ghosts(image)) : Cell()}};
+         request.ringing ? Cell(rung_ghosts(drawn)) : Cell()}};
     OutputOptions summary = options.output;
     summary.file.clear();
     write_report(report, summary);
@@ -266,6 +275,7 @@ void add_render(CLI::App& program) {
     command->add_flag(
         "--ringing", options->ringing,
         "diffraction at the ghosts' rims, where its fringes are a pixel wide or more");
+    add_text(*command, "--only", options->only, "I-J[,I-J]", "these ghosts alone");
     CLI::Option* csv = command->add_flag("--csv", options->output.csv, "summary as CSV");
     command->add_flag("--json", options->output.json, "summary as JSON")->excludes(csv);
     command->footer(R"(Examples:

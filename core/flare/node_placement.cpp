@@ -52,13 +52,12 @@ MeshNodes NodePlacement::place(const Bundle<float>& rays, int cells, double cell
             for (int s = 0; s < rays.stop_crossings; ++s) {
                 const float u = mirror * rays.stop_u_mm[idx(s)][of];
                 const float v = rays.stop_v_mm[idx(s)][of];
+                int edge = 0;
                 // Linear along the radius, unlike stop_margin: chords fit a rim better.
-                if (stop_mask_.blades == 0) {
-                    nodes.clearances[1 + idx(s)][k] =
+                if (stop_mask_.blades == 0)
+                    nodes.clearances[1 + idx(s * edges + edge++)][k] =
                         1.0F - std::sqrt(u * u + v * v) * inverse_stop;
-                    continue;
-                }
-                for (int edge = 0; edge < edges; ++edge)
+                for (; edge < edges; ++edge)
                     nodes.clearances[1 + idx(s * edges + edge)][k] = static_cast<float>(stop_margin(
                         stop_mask_, edge, static_cast<double>(u), static_cast<double>(v)));
             }

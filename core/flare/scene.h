@@ -39,6 +39,7 @@ struct Scene {
     Veil veil;
     Backdrop backdrop;
     Artistic artistic;
+    bool ringing = false;           ///< diffraction at the ghosts' rims, in pictures at rest
     double tolerance = 0.01;        ///< of the ghost table's fluxes
     double flare_tolerance = 0.02;  ///< relative L1 error of the flare at rest
     bool operator==(const Scene&) const = default;

@@ -223,6 +223,7 @@ std::string scene_to_json(const Scene& scene) {
     if (scene.veil != plain.veil) object["veil"] = veil_json(scene.veil);
     if (scene.backdrop != plain.backdrop) object["backdrop"] = scene.backdrop.file;
     if (scene.artistic != plain.artistic) object["artistic"] = artistic_json(scene.artistic);
+    if (scene.ringing) object["ringing"] = true;
     object["tolerance"] = scene.tolerance;
     object["flare_tolerance"] = scene.flare_tolerance;
     return compact_json(object);
@@ -257,6 +258,7 @@ Scene scene_from_json(std::string_view text, const Prescription& lens, const Sce
     if (const Json* veil = field(object, "veil")) read_veil(*veil, scene.veil);
     scene.backdrop.file = text_or(object, "backdrop", scene.backdrop.file);
     if (const Json* artistic = field(object, "artistic")) read_artistic(*artistic, scene.artistic);
+    scene.ringing = truth_or(object, "ringing", scene.ringing);
     read_share(object, "tolerance", scene.tolerance);
     read_share(object, "flare_tolerance", scene.flare_tolerance);
     return scene;

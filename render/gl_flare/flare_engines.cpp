@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/flare/planned_flare.h"
+#include "core/flare/ringing.h"
 
 namespace ghostlight {
 
@@ -35,7 +36,10 @@ std::optional<FlareImage> FlareEngines::draw(const FlareScene& scene, const Flar
                                              std::stop_token stop) {
     if (state_.choice.engine == FlareEngine::gl && gl_) {
         try {
-            return gl_->draw(scene, request, stop);
+            std::optional<FlareImage> image = gl_->draw(scene, request, stop);
+            if (image && request.ringing && !add_ringing(scene, request, stop, *image))
+                return std::nullopt;
+            return image;
         } catch (const std::exception& error) {
             refuse_gl(error.what());
             state_.gave_up = true;

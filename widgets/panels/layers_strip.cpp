@@ -77,6 +77,18 @@ void LayersStrip::add_row(LayerKind kind) {
     strip->addWidget(row.gain);
     strip->addWidget(row.reset);
     strip->addWidget(row.alone);
+    if (kind == LayerKind::ghosts) {
+        ringing_ = quiet_button("ringing",
+                                "Diffraction at the ghosts' rims, where its fringes are a pixel "
+                                "wide or more; at rest",
+                                true);
+        strip->addWidget(ringing_);
+        connect(ringing_, &QToolButton::clicked, this, [this](bool on) {
+            Scene scene = document_.scene();
+            scene.ringing = on;
+            document_.edit_scene(scene, on ? "ring the ghosts' rims" : "leave rims sharp");
+        });
+    }
     strip->addSpacing(14);
     connect(row.on, &QToolButton::clicked, this, [this, kind](bool on) { switch_layer(kind, on); });
     connect(row.alone, &QToolButton::clicked, this, [this, kind](bool on) {
@@ -126,6 +138,8 @@ void LayersStrip::set_gain(LayerKind kind, double gain_ev) {
 
 void LayersStrip::follow_document() {
     const LayerSettings& layers = document_.scene().layers;
+    ringing_->setEnabled(!document_.is_empty() && layers.shows(LayerKind::ghosts));
+    ringing_->setChecked(document_.scene().ringing);
     for (const LayerKind kind : layer_kinds) {
         const Row& row = rows_[static_cast<std::size_t>(kind)];
         const LayerSetting& setting = layers.of(kind);

@@ -21,6 +21,7 @@ class LayersStrip : public QFrame {
     explicit LayersStrip(Document& document, QWidget* parent = nullptr);
 
     QToolButton& on(LayerKind kind) { return *rows_[static_cast<std::size_t>(kind)].on; }
+    QToolButton& ringing() { return *ringing_; }
     QToolButton& alone(LayerKind kind) { return *rows_[static_cast<std::size_t>(kind)].alone; }
     NumberField& gain(LayerKind kind) { return *rows_[static_cast<std::size_t>(kind)].gain; }
 
@@ -45,6 +46,7 @@ class LayersStrip : public QFrame {
 
     Document& document_;
     std::array<Row, layer_kinds.size()> rows_;
+    QToolButton* ringing_ = nullptr;
 };
 
 }  // namespace ghostlight
