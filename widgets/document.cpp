@@ -4,6 +4,7 @@
 
 #include "core/io/lens_file.h"
 #include "core/io/read_text.h"
+#include "core/io/scene_json.h"
 #include "widgets/edit_command.h"
 
 namespace ghostlight {
@@ -20,10 +21,10 @@ bool may_be_saved_over(const std::filesystem::path& file) {
     }
 }
 
-std::string document_to_json(const DocumentState& state) {
+std::string document_to_json(const DocumentState& state, const std::filesystem::path& folder) {
     Prescription lens = state.lens;
     lens.unknown[std::string(scene_field)] = scene_to_json(state.scene);
-    return lens_to_json(lens);
+    return lens_to_json(lens, folder);
 }
 
 DocumentState document_from_lens(Prescription lens) {
@@ -88,7 +89,7 @@ std::optional<Error> Document::open(const std::filesystem::path& file) {
 
 std::optional<Error> Document::save_as(const std::filesystem::path& file) {
     try {
-        write_file_safely(file, document_to_json(state_));
+        write_file_safely(file, document_to_json(state_, file.parent_path()));
     } catch (const Error& error) {
         return error;
     }

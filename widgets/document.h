@@ -11,8 +11,8 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/flare/scene.h"
 #include "core/optics/prescription.h"
-#include "widgets/scene.h"
 
 namespace ghostlight {
 
@@ -97,7 +97,8 @@ class Document : public QObject {
 bool may_be_saved_over(const std::filesystem::path& file);
 
 /// A lens file's text with the scene in it, and back.
-std::string document_to_json(const DocumentState& state);
+/// `folder` is where the text will be, see lens_to_json().
+std::string document_to_json(const DocumentState& state, const std::filesystem::path& folder = {});
 DocumentState document_from_lens(Prescription lens);
 
 }  // namespace ghostlight

@@ -251,7 +251,20 @@ bool FileActions::export_exr(const std::filesystem::path& file) {
         if (!image) {
             throw Error("there is no flare yet: it is still being computed");
         }
-        write_exr(*image, file);
+        // A layer alone is the picture.
+        std::vector<FlareImage> images;
+        std::vector<FlareLayer> named;
+        const std::vector<ShownLayer> layers = shown_.layers();
+        for (const ShownLayer& layer : layers) {
+            const LayerImage one{layer.kind, layer.image.get()};
+            images.push_back(compose(std::span(&one, 1), document_.scene().layers));
+        }
+        for (std::size_t k = 0; k < layers.size() && layers.size() > 1; ++k) {
+            if (!images[k].irradiance.empty()) {
+                named.push_back({std::string(name(layers[k].kind)), &images[k]});
+            }
+        }
+        write_exr(*image, file, {}, named);
     });
 }
 

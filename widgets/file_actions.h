@@ -14,6 +14,7 @@
 #include "core/flare/flare_image.h"
 #include "core/ghosts/ghost_path.h"
 #include "core/ghosts/ghost_table.h"
+#include "widgets/layered_picture.h"
 
 class QMenu;
 class QWidget;
@@ -36,7 +37,8 @@ class FileActions : public QObject {
         std::function<std::shared_ptr<const GhostTable>()> table;
         std::function<std::shared_ptr<const FlareImage>()> image;
         std::function<double()> exposure_ev;
-        std::function<std::vector<GhostPath>()> ghosts;  ///< that are chosen
+        std::function<std::vector<GhostPath>()> ghosts;   ///< that are chosen
+        std::function<std::vector<ShownLayer>()> layers;  ///< of the image
     };
 
     FileActions(Document& document, const Actions& actions, Banner& banner, StatusLine& status,

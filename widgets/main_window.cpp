@@ -1,5 +1,6 @@
 #include "widgets/main_window.h"
 
+#include <QActionGroup>
 #include <QApplication>
 #include <QCloseEvent>
 #include <QDesktopServices>
@@ -23,6 +24,7 @@
 #include "core/optics/paraxial.h"
 #include "core/units.h"
 #include "widgets/autosave.h"
+#include "widgets/certificate_job.h"
 #include "widgets/file_actions.h"
 #include "widgets/glass_folders.h"
 #include "widgets/models/ghost_table_model.h"
@@ -33,32 +35,39 @@
 #include "widgets/panels/flare_panel.h"
 #include "widgets/panels/ghost_panel.h"
 #include "widgets/panels/import_report_panel.h"
+#include "widgets/panels/layers_strip.h"
 #include "widgets/panels/layout_panel.h"
+#include "widgets/panels/light_panel.h"
 #include "widgets/panels/prescription_panel.h"
 #include "widgets/panels/scene_bar.h"
 #include "widgets/panels/status_line.h"
+#include "widgets/panels/stop_panel.h"
 #include "widgets/settings.h"
 #include "widgets/unknown_glass.h"
 
 namespace ghostlight {
 
-MainWindow::MainWindow(bool remembers) : remembers_(remembers), actions_(this) {
+MainWindow::MainWindow(bool remembers, MakeGlEngine make_gl)
+    : remembers_(remembers), actions_(this) {
     setObjectName("workbench");
     setAcceptDrops(true);
     setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks);
     use_glass_folders();
     build_panels();
-    jobs_ = std::make_unique<Jobs>(document_, selection_);
+    jobs_ = std::make_unique<Jobs>(document_, selection_, std::move(make_gl));
+    certificate_ = std::make_unique<CertificateJob>(document_, *jobs_);
     files_ = new FileActions(
         document_, actions_, *banner_, *status_,
         {[this] { return ghosts_->model().is_stale() ? nullptr : ghosts_->model().table(); },
          [this] { return picture_ && picture_->is_final ? picture_->image : nullptr; },
-         [this] { return flare_->exposure_ev(); }, [this] { return selection_.ghosts(); }},
+         [this] { return flare_->exposure_ev(); }, [this] { return selection_.ghosts(); },
+         [this] { return picture_ ? picture_->layers : std::vector<ShownLayer>(); }},
         this);
     build_menus();
     connect_document();
     connect_jobs();
     connect_actions();
+    connect_engines();
     connect_reports();
     resize(1720, 1000);
     arrange_panels();
@@ -73,6 +82,7 @@ MainWindow::MainWindow(bool remembers) : remembers_(remembers), actions_(this) {
 
 MainWindow::~MainWindow() {
     // Children may still signal while they go, after the members that listen are gone.
+    certificate_.reset();
     jobs_.reset();
     document_.disconnect(this);
     selection_.disconnect(this);
@@ -102,6 +112,10 @@ void MainWindow::build_panels() {
     ghosts_ = new GhostPanel(selection_, actions_);
     report_ = new ImportReportPanel(document_, actions_);
     first_order_ = new FirstOrderPanel(document_, actions_);
+    stop_ = new StopPanel(document_, actions_);
+    light_ = new LightPanel(document_, selection_);
+    layers_ = new LayersStrip(document_);
+    flare_->set_strip(layers_);
     setCentralWidget(flare_);
     setCorner(Qt::TopLeftCorner, Qt::LeftDockWidgetArea);
     setCorner(Qt::TopRightCorner, Qt::RightDockWidgetArea);
@@ -113,6 +127,8 @@ void MainWindow::build_panels() {
     ghost_dock_ = add_dock(ghosts_, "ghosts", "Ghosts", Qt::RightDockWidgetArea);
     first_order_dock_ =
         add_dock(first_order_, "first_order", "First order", Qt::RightDockWidgetArea);
+    stop_dock_ = add_dock(stop_, "stop", "Stop", Qt::RightDockWidgetArea);
+    light_dock_ = add_dock(light_, "light", "Light", Qt::RightDockWidgetArea);
     report_dock_ = add_dock(report_, "import_report", "Import report", Qt::BottomDockWidgetArea);
 
     status_ = new StatusLine(document_);
@@ -144,13 +160,15 @@ void MainWindow::build_menus() {
         bar, "&Ghosts",
         {"ghosts.copy", "ghosts.clear", "-", "ghosts.all", "ghosts.above_3", "ghosts.above_2"});
     QMenu* view = actions_.add_menu(bar, "&View", {"view.fit", "view.expose", "-"});
-    for (QDockWidget* dock :
-         {prescription_dock_, layout_dock_, ghost_dock_, first_order_dock_, report_dock_}) {
+    for (QDockWidget* dock : {prescription_dock_, layout_dock_, ghost_dock_, first_order_dock_,
+                              stop_dock_, light_dock_, report_dock_}) {
         view->addAction(dock->toggleViewAction());
     }
     actions_.fill(*view, {"view.reset", "-", "report.all", "report.matters", "report.copy",
                           "first_order.copy", "-", "view.aspheres", "view.comments", "-",
                           "view.light_theme"});
+    actions_.fill(*view->addMenu("&Draw Flares With"),
+                  {"engine.automatic", "engine.cpu", "engine.opengl"});
     actions_.add_menu(bar, "&Help", {"help.guide", "help.about"});
 }
 
@@ -158,16 +176,20 @@ void MainWindow::arrange_panels() {
     const struct {
         QDockWidget* dock;
         Qt::DockWidgetArea area;
-    } places[] = {{prescription_dock_, Qt::LeftDockWidgetArea},
-                  {layout_dock_, Qt::TopDockWidgetArea},
-                  {ghost_dock_, Qt::RightDockWidgetArea},
-                  {first_order_dock_, Qt::RightDockWidgetArea},
-                  {report_dock_, Qt::BottomDockWidgetArea}};
+    } places[] = {
+        {prescription_dock_, Qt::LeftDockWidgetArea}, {layout_dock_, Qt::TopDockWidgetArea},
+        {ghost_dock_, Qt::RightDockWidgetArea},       {first_order_dock_, Qt::RightDockWidgetArea},
+        {stop_dock_, Qt::RightDockWidgetArea},        {light_dock_, Qt::RightDockWidgetArea},
+        {report_dock_, Qt::BottomDockWidgetArea}};
     for (const auto& place : places) {
         place.dock->setFloating(false);
         addDockWidget(place.area, place.dock);
         place.dock->show();
     }
+    // Those that are seldom wanted together share a place.
+    tabifyDockWidget(first_order_dock_, stop_dock_);
+    tabifyDockWidget(stop_dock_, light_dock_);
+    first_order_dock_->raise();
     // First-order data take a third of the right side; the report comes when it has something
     // to say.
     report_dock_->setVisible(report_->model().rowCount() > 0);
@@ -204,21 +226,26 @@ void MainWindow::connect_document() {
             selection_.set_ghosts({});
         }
         flare_->set_dimmed(true);
-        ghosts_->set_refining(0.0);
+        if (jobs_->awaits_table()) {
+            ghosts_->set_refining(0.0);
+        }
         scene_update_.start();
     });
     connect(&document_, &Document::file_changed, this, &MainWindow::show_title);
     connect(&selection_, &Selection::ghosts_changed, &scene_update_, qOverload<>(&QTimer::start));
     connect(flare_, &FlarePanel::light_dragged, this, [this](const LightDirection& light) {
         Scene scene = document_.scene();
-        scene.light = light;
+        scene.light().direction = light;
         document_.edit_scene(scene, "move the light", "light");
     });
     connect(layout_, &LayoutPanel::surface_hovered, prescription_,
             &PrescriptionPanel::set_hovered_row);
-    connect(scene_bar_, &SceneBar::refused, this, [this](const QString& reason) {
+    const auto say = [this](const QString& reason) {
         reason.isEmpty() ? banner_->clear("scene") : banner_->show_text("scene", reason);
-    });
+    };
+    connect(scene_bar_, &SceneBar::refused, this, say);
+    connect(light_, &LightPanel::refused, this, say);
+    connect(layers_, &LayersStrip::refused, this, say);
 }
 
 void MainWindow::connect_jobs() {
@@ -271,6 +298,28 @@ void MainWindow::connect_actions() {
     connect_absorption();
     actions_.on("help.about", [this] { show_about(); });
     actions_.on("help.guide", [this] { show_guide(); });
+}
+
+void MainWindow::set_engine(FlareEngine engine) {
+    actions_[QStringLiteral("engine.") + engine_name(engine)].setChecked(true);
+    jobs_->set_engine(engine);
+}
+
+void MainWindow::connect_engines() {
+    auto* one_of = new QActionGroup(this);
+    for (const FlareEngine engine : {FlareEngine::automatic, FlareEngine::cpu, FlareEngine::gl}) {
+        const QString id = QStringLiteral("engine.") + engine_name(engine);
+        one_of->addAction(&actions_[id]);
+        actions_.on(id, [this, engine] {
+            settings::set_flare_engine(engine);
+            set_engine(engine);
+        });
+    }
+    connect(jobs_.get(), &Jobs::engine_changed, status_, &StatusLine::show_engine);
+    connect(certificate_.get(), &CertificateJob::progressed, status_, &StatusLine::show_proving);
+    connect(certificate_.get(), &CertificateJob::certified, status_, &StatusLine::show_proof);
+    connect(certificate_.get(), &CertificateJob::withdrawn, status_, &StatusLine::clear_proof);
+    set_engine(settings::flare_engine());
 }
 
 void MainWindow::connect_absorption() {
@@ -350,7 +399,8 @@ void MainWindow::offer_recovery() {
 bool MainWindow::open(const std::filesystem::path& file) { return files_->open(file); }
 
 bool MainWindow::is_settled() const {
-    return !jobs_->is_busy() && !scene_update_.isActive() && first_order_->is_settled();
+    return !jobs_->is_busy() && !scene_update_.isActive() && first_order_->is_settled() &&
+           stop_->is_settled();
 }
 
 void MainWindow::show_scene() {
@@ -360,10 +410,10 @@ void MainWindow::show_scene() {
     }
     try {
         const Prescription lens = document_.configured_lens();
-        layout_->show_lens(lens, document_.scene().light, drawing_wavelength_nm(document_.scene()),
-                           selection_.ghosts());
+        layout_->show_lens(lens, document_.scene().light().direction,
+                           drawing_wavelength_nm(document_.scene()), selection_.ghosts());
         const double efl_mm = first_order(compile(lens, d_line_nm)).efl_mm;
-        flare_->set_light(document_.scene().light, efl_mm);
+        flare_->set_light(document_.scene().light().direction, efl_mm);
     } catch (const Error& error) {
         show_failure(error.what());
     }
@@ -372,7 +422,7 @@ void MainWindow::show_scene() {
 void MainWindow::show_picture(const FlarePicture& picture) {
     banner_->clear("trace");
     if (begins_lens_) {
-        begins_lens_ = false;
+        begins_lens_ = picture.is_first_look;  // a better one sets the exposure again
         flare_->begin_lens();
     }
     picture_ = picture;

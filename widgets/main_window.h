@@ -16,15 +16,19 @@ namespace ghostlight {
 
 class Autosave;
 class Banner;
+class CertificateJob;
 class FileActions;
 class FirstOrderPanel;
 class FlarePanel;
 class GhostPanel;
 class ImportReportPanel;
+class LayersStrip;
 class LayoutPanel;
+class LightPanel;
 class PrescriptionPanel;
 class SceneBar;
 class StatusLine;
+class StopPanel;
 
 /// The workbench: panels around one document. It only puts together; what each part does is in
 /// its own file.
@@ -32,10 +36,12 @@ class MainWindow : public QMainWindow {
     Q_OBJECT
    public:
     /// `remembers` off: neither settings of the window nor copies of unsaved edits are kept.
-    explicit MainWindow(bool remembers = true);
+    explicit MainWindow(bool remembers = true, MakeGlEngine make_gl = offscreen_gl_engine);
     ~MainWindow() override;
 
     bool open(const std::filesystem::path& file);
+    /// What flares are drawn with, until it is chosen anew; not kept.
+    void set_engine(FlareEngine engine);
     /// All panels where they were at first, in proportion to the window.
     void arrange_panels();
     /// True when the views show the document as it is.
@@ -55,6 +61,9 @@ class MainWindow : public QMainWindow {
     GhostPanel& ghost_panel() { return *ghosts_; }
     ImportReportPanel& import_report_panel() { return *report_; }
     FirstOrderPanel& first_order_panel() { return *first_order_; }
+    StopPanel& stop_panel() { return *stop_; }
+    LightPanel& light_panel() { return *light_; }
+    LayersStrip& layers_strip() { return *layers_; }
     const std::optional<FlarePicture>& picture() const { return picture_; }
 
    Q_SIGNALS:
@@ -73,6 +82,7 @@ class MainWindow : public QMainWindow {
     void connect_document();
     void connect_jobs();
     void connect_actions();
+    void connect_engines();
     void connect_absorption();
     void connect_reports();
     void offer_recovery();
@@ -93,6 +103,7 @@ class MainWindow : public QMainWindow {
     Selection selection_;
     Actions actions_;
     std::unique_ptr<Jobs> jobs_;
+    std::unique_ptr<CertificateJob> certificate_;
     std::unique_ptr<Autosave> autosave_;
 
     SceneBar* scene_bar_ = nullptr;
@@ -102,6 +113,9 @@ class MainWindow : public QMainWindow {
     GhostPanel* ghosts_ = nullptr;
     ImportReportPanel* report_ = nullptr;
     FirstOrderPanel* first_order_ = nullptr;
+    StopPanel* stop_ = nullptr;
+    LightPanel* light_ = nullptr;
+    LayersStrip* layers_ = nullptr;
     StatusLine* status_ = nullptr;
     Banner* banner_ = nullptr;
     FileActions* files_ = nullptr;
@@ -110,6 +124,8 @@ class MainWindow : public QMainWindow {
     QDockWidget* ghost_dock_ = nullptr;
     QDockWidget* report_dock_ = nullptr;
     QDockWidget* first_order_dock_ = nullptr;
+    QDockWidget* stop_dock_ = nullptr;
+    QDockWidget* light_dock_ = nullptr;
 
     QTimer scene_update_;  ///< many changes, one drawing
     std::optional<FlarePicture> picture_;

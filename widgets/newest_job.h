@@ -18,8 +18,11 @@ class NewestJob {
     /// Runs on the job's own thread and must not throw.
     using Work = std::function<void(const Request& request, std::stop_token stop)>;
 
-    explicit NewestJob(Work work)
-        : work_(std::move(work)), thread_([this](std::stop_token end) { run(end); }) {}
+    /// `at_end` is called last on that thread: for what has to go where it was made.
+    explicit NewestJob(Work work, std::function<void()> at_end = {})
+        : work_(std::move(work)),
+          at_end_(std::move(at_end)),
+          thread_([this](std::stop_token end) { run(end); }) {}
     ~NewestJob() {
         cancel();
         thread_.request_stop();
@@ -50,9 +53,11 @@ class NewestJob {
             work_(request, stop);
             lock.lock();
         }
+        if (at_end_) at_end_();
     }
 
     Work work_;
+    std::function<void()> at_end_;
     std::mutex mutex_;
     std::condition_variable_any wake_;
     std::optional<Request> waiting_;

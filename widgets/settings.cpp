@@ -31,6 +31,15 @@ void set_theme(Theme theme) {
     QSettings().setValue("theme", theme == Theme::light ? "light" : "dark");
 }
 
+FlareEngine flare_engine() {
+    return parse_engine(QSettings().value("flare_engine").toString().toStdString())
+        .value_or(FlareEngine::automatic);
+}
+
+void set_flare_engine(FlareEngine engine) {
+    QSettings().setValue("flare_engine", QString::fromLatin1(engine_name(engine)));
+}
+
 QByteArray window_geometry() { return QSettings().value("window/geometry").toByteArray(); }
 
 QByteArray window_state() { return QSettings().value("window/state").toByteArray(); }

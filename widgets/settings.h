@@ -3,6 +3,7 @@
 #include <QByteArray>
 #include <QStringList>
 
+#include "render/gl_flare/engine_choice.h"
 #include "widgets/theme.h"
 
 namespace ghostlight {
@@ -17,6 +18,10 @@ void forget_recent_file(const QString& file);
 
 Theme theme();
 void set_theme(Theme theme);
+
+/// What flares are drawn with.
+FlareEngine flare_engine();
+void set_flare_engine(FlareEngine engine);
 
 QByteArray window_geometry();
 QByteArray window_state();

@@ -86,15 +86,24 @@ QPushButton:hover { border-color: @dim; }
 QPushButton:default, QPushButton:focus { border-color: @teal; }
 QPushButton:disabled { color: @faint; }
 #scene_bar { background: @ground; border: none; border-bottom: 1px solid @line; }
-#scene_bar QFrame[field="true"] { background: @panel; border: 1px solid @line;
-    border-radius: 4px; }
-#scene_bar QFrame[field="true"]:hover { border-color: @faint; }
-#scene_bar QFrame[field="true"][focused="true"] { border-color: @teal; }
-#scene_bar QFrame[field="true"][refused="true"] { border-color: @warning; }
-#scene_bar QLabel, #scene_bar QLineEdit, #scene_bar QComboBox { background: transparent;
-    border: none; padding: 0; }
-#scene_bar QLineEdit { selection-background-color: @selection; }
-#scene_bar QComboBox::drop-down { width: 0; border: none; }
+QFrame[field="true"] { background: @panel; border: 1px solid @line; border-radius: 4px; }
+QFrame[field="true"]:hover { border-color: @faint; }
+QFrame[field="true"][focused="true"] { border-color: @teal; }
+QFrame[field="true"][refused="true"] { border-color: @warning; }
+QFrame[field="true"] QLabel, QFrame[field="true"] QLineEdit, QFrame[field="true"] QComboBox,
+    #scene_bar QLabel { background: transparent; border: none; padding: 0; }
+QFrame[field="true"] QLineEdit { selection-background-color: @selection; }
+QFrame[field="true"] QComboBox::drop-down { width: 0; border: none; }
+#light_panel QFrame[field="true"] { background: @ground; }
+#layers_strip { background: @ground; border-top: 1px solid @line; }
+#light_list { background: @panel; border: none; border-bottom: 1px solid @line; }
+#light_list::item { padding: 4px 8px; }
+#light_list::item:selected { background: @selection; color: @text; }
+QToolButton[quiet="true"] { background: transparent; border: 1px solid transparent;
+    border-radius: 4px; padding: 2px 6px; color: @dim; }
+QToolButton[quiet="true"]:hover { border-color: @line; color: @text; }
+QToolButton[quiet="true"]:checked { background: @selection; color: @text; }
+QToolButton[quiet="true"]:disabled { color: @faint; }
 #status_line { background: @ground; border-top: 1px solid @line; }
 #refusal { background: @ground; color: @warning; border: 1px solid @warning;
     border-radius: 4px; padding: 6px 8px; }

@@ -14,9 +14,14 @@ void add_coatings(CLI::App& program);
 void add_glasses(CLI::App& program);
 void add_ghosts(CLI::App& program);
 void add_render(CLI::App& program);
+void add_starburst(CLI::App& program);
 void add_synth(CLI::App& program);
 void add_fit(CLI::App& program);
 void add_plan(CLI::App& program);
+void add_veil(CLI::App& program);
+void add_composite(CLI::App& program);
+void add_accuracy(CLI::App& program);
+void add_stability(CLI::App& program);
 void add_lenses(CLI::App& program);
 void add_convert(CLI::App& program);
 

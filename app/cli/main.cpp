@@ -24,6 +24,7 @@ constexpr auto examples = R"(Examples:
   ghostlight-cli trace LENS --ghost 5-3 --field 15 --rays rays.csv --csv
   ghostlight-cli coating --stack "1.0 | 1.38:96.4 | 1.5" --wavelengths 400:700:10 --angles 0:80:20
   ghostlight-cli render LENS --field 15 -o flare.exr
+  ghostlight-cli starburst LENS --field 5 --f-number 11 --blades 7 -o starburst.png
   ghostlight-cli convert lens.zmx lens.json --report
   ghostlight-cli glasses --nd 1.62 --vd 60
 
@@ -68,9 +69,14 @@ int run(std::vector<std::string> arguments) {
     add_coating(program);
     add_ghosts(program);
     add_render(program);
+    add_starburst(program);
     add_synth(program);
     add_fit(program);
     add_plan(program);
+    add_veil(program);
+    add_composite(program);
+    add_accuracy(program);
+    add_stability(program);
     add_lenses(program);
     add_convert(program);
     add_glasses(program);

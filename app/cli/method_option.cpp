@@ -29,14 +29,15 @@ std::string_view method_name(FlareMethod method) {
 void add_method(CLI::App& command, MethodOptions& options) {
     add_text(command, "--method", options.method, "NAME",
              "planned: the least work for --tolerance; uniform: a grid for every ghost, as\nin "
-             "Hullin et al. 2011; paraxial: to first order; reference: slow, to compare with")
+             "Hullin et al. 2011; paraxial: to first order; reference: refined until two "
+             "samplings\nagree within --tolerance, to compare with")
         ->capture_default_str();
-    add_text(command, "--tolerance", options.tolerance, "X",
-             "planned: L1 error of the ghosts' irradiance on the sensor over their light")
+    add_text(
+        command, "--tolerance", options.tolerance, "X",
+        "planned, reference: L1 error of the ghosts' irradiance on the sensor over their\nlight")
         ->capture_default_str();
     add_text(command, "--grid", options.grid, "N",
-             "uniform, reference: cells across every ghost's pupil, 2 to 1024; default: by\neach "
-             "ghost's bend");
+             "uniform: cells across every ghost's pupil, 2 to 1024; default: by each ghost's bend");
     add_text(command, "--culled", options.culled, "SHARE",
              "uniform: the weakest ghosts that are not drawn, a share of their number");
     add_text(command, "--coating-model", options.coating_model, "NAME",

@@ -257,9 +257,9 @@ CLI::Option* add_text(CLI::App& command, const std::string& name, std::string& v
             [](std::string& text) { return text.empty() ? "is empty" : std::string(); }, ""));
 }
 
-CLI::Option* add_lens(CLI::App& command, LensOptions& options) {
+CLI::Option* add_lens(CLI::App& command, LensOptions& options, const std::string& name) {
     constexpr auto group = "Overrides of the lens, for this run";
-    auto* lens = add_text(command, "LENS", options.lens, "",
+    auto* lens = add_text(command, name, options.lens, name == "LENS" ? "" : "LENS",
                           "a lens file, or the name of a bundled lens (see: lenses)");
     add_text(command, "--config", options.config, "NAME", "zoom or focus position")->group(group);
     auto* f_number = add_text(command, "--f-number", options.f_number, "N",
@@ -269,6 +269,7 @@ CLI::Option* add_lens(CLI::App& command, LensOptions& options) {
              "the stop's radius, mm")
         ->excludes(f_number)
         ->group(group);
+    add_stop(command, options.stop, group);
     add_text(command, "--sensor", options.sensor, "WxH", "size of the sensor, mm, such as 36x24")
         ->group(group);
     add_text(
@@ -298,6 +299,7 @@ LoadedLens load_lens(const LensOptions& options) {
     loaded.lens =
         read_option("--config", [&, &listed = lens] { return configured(listed, options.config); });
     override_stop(loaded.lens, options);
+    override_stop_shape(loaded.lens.stop, options.stop);
     if (!options.sensor.empty()) override_sensor(loaded.lens.sensor, options.sensor);
     if (!options.sensor_reflectance.empty())
         override_sensor_reflectance(loaded.lens.sensor, options.sensor_reflectance);

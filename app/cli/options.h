@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/cli/stop_options.h"
 #include "core/error.h"
 #include "core/io/lens_file.h"
 #include "core/optics/prescription.h"
@@ -68,8 +69,10 @@ CLI::Option* add_text(CLI::App& command, const std::string& name, std::string& v
 struct LensOptions {
     std::string lens, config, f_number, stop_semi_diameter, sensor, sensor_reflectance, coating,
         internal_transmittance;
+    StopOptions stop;
 };
-CLI::Option* add_lens(CLI::App& command, LensOptions& options);
+/// `name` is "LENS", or an option's.
+CLI::Option* add_lens(CLI::App& command, LensOptions& options, const std::string& name = "LENS");
 
 /// What may follow --coating. Throws Error.
 Coating parse_coating(std::string_view text);

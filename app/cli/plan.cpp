@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "app/cli/commands.h"
 #include "app/cli/output.h"
+#include "app/cli/plan_omissions.h"
 #include "app/cli/report.h"
 #include "app/cli/spectrum_option.h"
+#include "core/flare/plan_proof.h"
 #include "core/flare/planned_flare.h"
 
 namespace ghostlight::cli {
@@ -16,9 +19,13 @@ struct PlanOptions {
     LensOptions lens;
     LightOptions light{.field = "0"};
     SpectrumOptions spectrum;
-    std::string tolerance = "0.02", width = "1280";
+    std::string tolerance = "0.02", width = "1280", cells;
+    bool certify = false, measure = false;
     OutputOptions output;
 };
+
+/// What the reference may err by that a picture is measured with, of its tolerance.
+constexpr double reference_share = 0.25;
 
 std::string fate_name(GhostFate fate) {
     switch (fate) {
@@ -30,8 +37,21 @@ std::string fate_name(GhostFate fate) {
             return "nothing passes";
         case GhostFate::left_out:
             return "left out";
+        case GhostFate::folded:
+            return "in the veil";
     }
     return {};
+}
+
+/// What is said of a proof, above the table.
+std::string heading_of(const PlanProof& proof) {
+    return fmt::format(
+        "Outside of where these ghosts are looked for, light on the sensor comes to at most {:.2g} "
+        "% "
+        "of theirs: proven for {} of {} ghosts to within {:.2g} % in all, in {:.1f} s{}\n",
+        100.0 * proof.missed_share(), proof.certified, proof.ghosts.size(),
+        100.0 * PlanProofRequest{}.missed_share, proof.seconds,
+        proof.certified == proof.ghosts.size() ? "." : "; for the others, more --cells may do.");
 }
 
 void run(const PlanOptions& options) {
@@ -41,11 +61,26 @@ void run(const PlanOptions& options) {
                                      [](double share) { return share >= 1e-4 && share <= 0.5; });
     request.width_px = static_cast<int>(integer_value(
         "--width", options.width, "a whole number of pixels from 16 to 16384", 16, 16384));
+    PlanProofRequest proving;
+    if (!options.cells.empty()) {
+        if (!options.certify) throw Error("--cells: goes with --certify");
+        proving.most_cells = static_cast<std::size_t>(integer_value(
+            "--cells", options.cells, "a whole number from 1 to 10000000", 1, 10'000'000));
+    }
     const LoadedLens loaded = load_lens(options.lens);
     const FlareScene scene = flare_scene(loaded.lens, spectrum_of(options.spectrum));
     const FlareImage image = *render_planned(scene, request);
     FlarePlan plan = image.plan;
-    std::ranges::stable_sort(plan.ghosts, std::ranges::greater{}, &PlannedGhost::flux_mm2);
+    const auto strength = [](const PlannedGhost& ghost) {
+        return ghost.fate == GhostFate::left_out ? 0.0 : ghost.flux_mm2;
+    };
+    std::ranges::stable_sort(plan.ghosts, std::ranges::greater{}, strength);
+    std::optional<PlanProof> proof;
+    if (options.certify) {
+        ProgressLine progress("proving bounds");
+        proof = certify(scene, request.light, plan, proving, {},
+                        [&](double share) { progress(share); });
+    }
 
     Report report;
     report.lens = lens_fields(loaded);
@@ -57,18 +92,31 @@ void run(const PlanOptions& options) {
                       {"estimated_error", json_value(plan.estimated_error())},
                       {"flux_on_sensor_mm2", json_value(plan.flux_mm2)},
                       {"rays", json_value(static_cast<std::int64_t>(image.rays))},
-                      {"time_ms", json_value(image.times.total_ms)}};
+                      {"time_ms", json_value(image.times.total_ms)},
+                      {"left_out_share", json_value(plan.left_out_share())},
+                      {"not_modelled_share", json_value(plan.not_modelled)}};
+    if (proof) {
+        report.request.push_back({"missed_share", json_value(proof->missed_share())});
+        report.request.push_back(
+            {"certified", json_value(static_cast<std::int64_t>(proof->certified))});
+    }
     report.heading = fmt::format(
         "{}\n{} ghosts: {} drawn, {} beside the sensor, {} through which nothing was found to "
-        "pass.\nWithin {:.2g} % of the ghosts' light, by the plan's own estimate ({:.2g} % "
-        "asked); {} rays, {:.1f} ms.\n",
+        "pass, {} left out (at most {:.2g} % of the light).\nWithin {:.2g} % of the ghosts' light, "
+        "by the plan's own estimate ({:.2g} % asked); {} rays, {:.1f} ms.\nNot modelled: light of "
+        "four and more reflections, about {:.2g} % of that of two (surfaces taken as plane).\n",
         lens_heading(loaded), plan.ghosts.size(), plan.count(GhostFate::drawn),
         plan.count(GhostFate::off_sensor), plan.count(GhostFate::nothing_passes),
-        100.0 * plan.estimated_error(), 100.0 * plan.tolerance, image.rays, image.times.total_ms);
-    report.table.columns = {"ghost",         "fate",      "flux_on_sensor_mm2",
-                            "allowance_mm2", "error_mm2", "cells_across",
-                            "size",          "bands",     "rays"};
-    for (const PlannedGhost& ghost : plan.ghosts) {
+        plan.count(GhostFate::left_out), 100.0 * plan.left_out_share(),
+        100.0 * plan.estimated_error(), 100.0 * plan.tolerance, image.rays, image.times.total_ms,
+        100.0 * plan.not_modelled);
+    if (proof) report.heading += heading_of(*proof);
+    report.table.columns = {
+        "ghost", "fate", "flux_on_sensor_mm2", "allowance_mm2", "error_mm2", "cells_across", "size",
+        "bands", "rays", "bound_mm2"};
+    if (proof) report.table.columns.push_back("missed_bound_mm2");
+    for (std::size_t g = 0; g < plan.ghosts.size(); ++g) {
+        const PlannedGhost& ghost = plan.ghosts[g];
         const bool drawn = ghost.fate == GhostFate::drawn;
         auto if_drawn = [&](auto value) { return drawn ? Cell(value) : Cell(); };
         report.table.rows.push_back(
@@ -79,8 +127,20 @@ void run(const PlanOptions& options) {
                  ? Cell(ghost.level == 0 ? std::string("1") : fmt::format("1/{}", 1 << ghost.level))
                  : Cell(),
              if_drawn(static_cast<std::int64_t>(ghost.bands)),
-             static_cast<std::int64_t>(ghost.rays)});
+             static_cast<std::int64_t>(ghost.rays),
+             ghost.fate == GhostFate::nothing_passes ? Cell() : Cell(ghost.bound_mm2)});
+        if (proof) report.table.rows.back().push_back(proof->ghosts[g].missed_flux_bound_mm2());
     }
+    std::optional<MeasuredPlan> measured;
+    if (options.measure) {
+        ProgressLine progress("measuring against the reference");
+        request.spectrum = scene.spectrum;
+        measured = measure_plan(loaded.lens, request, image, reference_share * request.tolerance,
+                                {}, [&](double share) { progress(share); });
+    }
+    const PlanReport omitted = plan_report(scene, plan, proof ? &*proof : nullptr);
+    report.heading += omissions_text(omitted, measured);
+    for (auto& field : omission_fields(omitted, measured)) report.request.push_back(field);
     write_report(report, options.output);
     print_notes(loaded.notes, Note::Severity::warning);
 }
@@ -99,10 +159,19 @@ void add_plan(CLI::App& program) {
         ->capture_default_str();
     add_text(*command, "--width", options->width, "PX", "of the picture, pixels")
         ->capture_default_str();
+    command->add_flag("--certify", options->certify,
+                      "prove how much light the search for ghosts can have missed; takes seconds");
+    add_text(
+        *command, "--cells", options->cells, "N",
+        "with --certify: cells that a ghost's proof may take at each wavelength; default 1000");
+    command->add_flag("--measure", options->measure,
+                      "the picture's true error, by a reference; takes from seconds to minutes");
     add_output(*command, options->output);
     command->footer(R"(Examples:
   ghostlight-cli plan tessar_brendel_100_f2.8 --field 10
-  ghostlight-cli plan nikon_zoom_80_200_f2.8 --field 8 --spectrum D65 --tolerance 0.04 --csv)");
+  ghostlight-cli plan tessar_brendel_100_f2.8 --field 10 --width 320 --measure
+  ghostlight-cli plan nikon_zoom_80_200_f2.8 --field 8 --spectrum D65 --tolerance 0.04 --csv
+  ghostlight-cli plan cooke_triplet_50_f5 --field 10 --certify)");
     command->callback([options] { run(*options); });
 }
 

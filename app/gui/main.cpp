@@ -31,6 +31,7 @@ Opens the lens-flare workbench, on a lens file if one is given.
 
   --snapshot DIR  open LENS, wait until all views are ready, write workbench.png, ghosts.csv and
                   flare.exr into DIR, and exit
+  --engine NAME   what draws flares, this time: automatic, cpu or opengl
   --size WxH      size of the window in pixels, e.g. 1366x768
   --help          this text
   --version       the version
@@ -83,9 +84,18 @@ int run(QApplication& application, const QCommandLineParser& options) {
         return fail("--size: found " + options.value("size").toStdString() +
                     ", expected WIDTHxHEIGHT, e.g. 1366x768");
     }
+    std::optional<ghostlight::FlareEngine> engine;
+    if (options.isSet("engine") &&
+        !(engine = ghostlight::parse_engine(options.value("engine").toStdString()))) {
+        return fail("--engine: found " + options.value("engine").toStdString() +
+                    ", expected automatic, cpu or opengl");
+    }
     ghostlight::apply_theme(application,
                             snapshot ? ghostlight::Theme::dark : ghostlight::settings::theme());
     ghostlight::MainWindow window(!snapshot);
+    if (engine) {
+        window.set_engine(*engine);
+    }
     if (size) {
         window.resize(*size);
         window.arrange_panels();
@@ -127,7 +137,7 @@ int main(int argc, char** argv) {
     std::setlocale(LC_NUMERIC, "C");
 
     QCommandLineParser options;
-    options.addOptions({{"snapshot", "", "DIR"}, {"size", "", "WxH"}});
+    options.addOptions({{"snapshot", "", "DIR"}, {"size", "", "WxH"}, {"engine", "", "NAME"}});
     options.addPositionalArgument("LENS", "");
     if (!options.parse(QCoreApplication::arguments())) {
         return fail(options.errorText().toStdString() + " (see --help)");

@@ -25,6 +25,7 @@ FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threa
       surfaces_(turning_count(systems.front())) {
     const std::size_t table_size = static_cast<std::size_t>(nodes) * stride_;
     values_.assign(surfaces_ * tables_per_surface * table_size, 0.0F);
+    most_.assign(surfaces_ * 2 * static_cast<std::size_t>(nodes), 0.0F);
     keep_absorption(systems);
     invisible_.assign(surfaces_, true);
     for (std::size_t s = 0; s < surfaces_; ++s)
@@ -39,7 +40,8 @@ FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threa
         const std::size_t surface = task / 2;
         const bool forward = task % 2 == 0;
         if (invisible_[surface]) return;
-        std::vector<float> r(padded_nodes), t(padded_nodes);
+        std::vector<float> r(padded_nodes), t(padded_nodes), most(padded_nodes);
+        float* most_here = &most_[task * static_cast<std::size_t>(nodes)];
         std::vector<LayerAt<float>> layers;
         for (std::size_t w = 0; w < systems.size(); ++w) {
             const SurfaceAt& at = surface_at(systems[w], surface);
@@ -62,7 +64,8 @@ FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threa
                    .count = padded_nodes,
                    .cosines = cosines.data(),
                    .reflectance = r.data(),
-                   .transmittance = t.data()});
+                   .transmittance = t.data(),
+                   .most_reflected = most.data()});
             if (model == CoatingModel::hullin_2011) {
                 std::ranges::fill(t, 1.0F);
                 for (std::size_t i = 0; i < padded_nodes && film.layers.size() == 1; ++i)
@@ -70,17 +73,24 @@ FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threa
                         hullin_2011_reflectance(static_cast<double>(cosines[i]), film.wavelength_nm,
                                                 film.layers.front().thickness_nm, film.n_in,
                                                 film.layers.front().n, film.n_out));
+                // Its mean of s and p is all it gives; the larger is at most twice that.
+                std::ranges::transform(r, most.begin(), [](float mean) { return 2.0F * mean; });
             }
             if (at.uniform_reflectance) {
                 std::ranges::fill(r, static_cast<float>(*at.uniform_reflectance));
                 std::ranges::fill(t, static_cast<float>(1.0 - *at.uniform_reflectance));
+                most = r;
             }
             for (const bool reflects : {false, true}) {
                 float* to = values_.data() + (table(surface, forward, reflects) - values_.data());
                 for (std::size_t i = 0; i < static_cast<std::size_t>(nodes); ++i)
                     to[i * stride_ + w] = reflects ? r[i] : t[i];
             }
+            for (std::size_t i = 0; i < static_cast<std::size_t>(nodes); ++i)
+                most_here[i] = std::max(most_here[i], most[i]);
         }
+        for (std::size_t i = static_cast<std::size_t>(nodes) - 1; i-- > 0;)
+            most_here[i] = std::max(most_here[i], most_here[i + 1]);
     });
 }
 
@@ -123,6 +133,12 @@ const float* FilmTables::table(std::size_t surface, bool forward, bool reflects)
     const std::size_t which =
         surface * tables_per_surface + (forward ? 0U : 2U) + (reflects ? 1U : 0U);
     return values_.data() + which * static_cast<std::size_t>(nodes) * stride_;
+}
+
+double FilmTables::most_reflected(std::size_t surface, bool forward, double least_cosine) const {
+    const auto node = static_cast<std::size_t>(std::clamp(least_cosine, 0.0, 1.0) * (nodes - 1));
+    return static_cast<double>(
+        most_[(surface * 2 + (forward ? 0U : 1U)) * static_cast<std::size_t>(nodes) + node]);
 }
 
 void FilmTables::weights(const TracePath<float>& path, const Bundle<float>& rays,

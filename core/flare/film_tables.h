@@ -32,9 +32,14 @@ class FilmTables {
     void weights(const TracePath<float>& path, const Bundle<float>& rays,
                  std::vector<float>& weights) const;
 
+    /// The largest reflectance of a surface for light that meets it at this cosine or more
+    /// steeply to it, of either polarisation, over the wavelengths. From the tables' own nodes.
+    double most_reflected(std::size_t surface, bool forward, double least_cosine) const;
+
    private:
     std::size_t stride_ = 0, surfaces_ = 0;
     std::vector<float> values_;
+    std::vector<float> most_;               ///< by surface, side and node
     std::vector<float> absorption_per_mm_;  ///< by surface: before and after it; else empty
     std::vector<bool> invisible_;           ///< by surface: at no wavelength anything there
 

@@ -17,10 +17,14 @@ namespace ghostlight::GHOSTLIGHT_JOIN(kernels_, GHOSTLIGHT_ISA) {
                 : c.absorbing
                     ? film_amplitudes<true>(c.n_in, c.layers, c.layer_count, c.n_out, cosine)
                     : film_amplitudes<false>(c.n_in, c.layers, c.layer_count, c.n_out, cosine);
-            const V r = 0.5F * (norm(film.r_s) + norm(film.r_p));
+            const V r_s = norm(film.r_s), r_p = norm(film.r_p);
+            const V r = 0.5F * (r_s + r_p);
+            V most = r_s;
+            stdx::where(r_p > r_s, most) = r_p;
             const V t = 0.5F * (norm(film.t_s) + norm(film.t_p));
             r.copy_to(c.reflectance + i, stdx::element_aligned);
             t.copy_to(c.transmittance + i, stdx::element_aligned);
+            most.copy_to(c.most_reflected + i, stdx::element_aligned);
         }
     }
 

@@ -18,6 +18,7 @@ struct FilmCurveView {
     std::size_t count;  ///< of cosines; a multiple of `film_padding`
     const float* cosines;
     float *reflectance, *transmittance;  ///< means of s and p
+    float* most_reflected;               ///< the larger of s and p
 };
 
 /// Weights of rays at many wavelengths, from tables of each step over the cosine of incidence.

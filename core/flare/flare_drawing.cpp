@@ -4,6 +4,7 @@
 
 #include "core/elapsed.h"
 #include "core/flare/planned_ghost.h"
+#include "core/flare/probe_all.h"
 #include "core/parallel.h"
 
 namespace ghostlight {
@@ -16,9 +17,9 @@ std::optional<FlareDrawing> plan_drawing(const FlareScene& scene, const FlareReq
     drawing.frame = pixel_frame(system.sensor_width_mm, system.sensor_height_mm, request.width_px);
     const GhostPlanner planner(scene, request.light, drawing.frame, request.search);
     drawing.beam = planner.beam();
-    drawing.stop_mask = planner.stop_mask();
-    drawing.cos_azimuth = planner.cos_azimuth();
-    drawing.sin_azimuth = planner.sin_azimuth();
+    drawing.stop_mask = planner.placement().stop_mask();
+    drawing.cos_azimuth = planner.placement().cos_azimuth();
+    drawing.sin_azimuth = planner.placement().sin_azimuth();
     auto probed = probe_all(scene, planner, request, stop);
     if (!probed) return std::nullopt;
     std::vector<GhostDrawing> prepared(probed->size());
@@ -27,14 +28,10 @@ std::optional<FlareDrawing> plan_drawing(const FlareScene& scene, const FlareReq
             prepared[g] = planner.prepare((*probed)[g]);
     });
     if (!finished) return std::nullopt;
-    drawing.plan.tolerance = request.tolerance;
-    for (std::size_t g = 0; g < prepared.size(); ++g) {
-        const PlannedGhost& planned = (*probed)[g].planned;
-        drawing.plan.ghosts.push_back(planned);
-        drawing.plan.flux_mm2 += planned.flux_mm2;
-        drawing.plan.error_mm2 += planned.error_mm2;
-        if (planned.fate == GhostFate::drawn) drawing.ghosts.push_back(std::move(prepared[g]));
-    }
+    drawing.plan = plan_of(scene, request, *probed);
+    for (std::size_t g = 0; g < prepared.size(); ++g)
+        if (drawing.plan.ghosts[g].fate == GhostFate::drawn)
+            drawing.ghosts.push_back(std::move(prepared[g]));
     drawing.planning_ms = ms_since(began);
     return drawing;
 }

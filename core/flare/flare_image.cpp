@@ -8,6 +8,8 @@
 #include "core/flare/ghost_mesh.h"
 #include "core/flare/paraxial_flare.h"
 #include "core/flare/planned_flare.h"
+#include "core/flare/reference_image.h"
+#include "core/flare/ringing.h"
 #include "core/ghosts/pupil.h"
 #include "core/ghosts/weighted_grid.h"
 #include "core/parallel.h"
@@ -16,9 +18,8 @@ namespace ghostlight {
 namespace {
 
 constexpr int band_rows = 16;
-/// The reference's grids: what is left of a bend is far below a pixel.
-constexpr double reference_bend_px = 0.01;
-constexpr int coarsest_reference = 256, finest_reference = 640;
+/// Where the stop is an image, whose shape is followed from node to node.
+constexpr int coarsest_pictured = 128;
 constexpr double color_margin = 0.04;  ///< of a pupil's breadth, when it is shared by wavelengths
 
 PupilBox widened(const PupilBox& box, double share) {
@@ -103,9 +104,22 @@ FlareScene compiled_scene(const Prescription& lens, const FlareRequest& request)
                        request.coating_model);
 }
 
+ReferenceRequest reference_request(const FlareRequest& request) {
+    ReferenceRequest reference;
+    reference.light = request.light;
+    reference.spectrum = request.spectrum;
+    reference.width_px = request.width_px;
+    reference.tolerance = request.tolerance;
+    reference.only = request.only;
+    reference.highlighted = request.highlighted;
+    reference.threads = request.threads;
+    return reference;
+}
+
 }  // namespace
 
 bool can_be_planned(const OpticalSystem& system, const LightDirection& light) {
+    if (system.stop_mask.picture) return false;
     return !system.sensor_face || std::abs(std::fmod(light.azimuth_deg, 180.0)) == 90.0;
 }
 
@@ -119,8 +133,12 @@ std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequ
         }
         case FlareMethod::paraxial:
             return render_paraxial(compiled_scene(lens, request), request, std::move(stop));
+        case FlareMethod::reference: {
+            auto reference = render_reference(lens, reference_request(request), std::move(stop));
+            if (!reference) return std::nullopt;
+            return std::move(reference->image);
+        }
         case FlareMethod::uniform:
-        case FlareMethod::reference:
             break;
     }
     return render_uniform(lens, request, std::move(stop));
@@ -155,9 +173,8 @@ std::optional<FlareImage> render_uniform(const Prescription& lens, const FlareRe
     bool finished = parallel_for(ghosts.size(), request.threads, stop, [&](std::size_t g) {
         // Colour moves a pupil's edge by far less than a cell: one wavelength finds it for all.
         const OpticalSystem& system = systems[samples.size() / 2];
-        pupils[g] = find_pupil(
-            system, trace_path<float>(system, ghosts[g]), frame,
-            request.method == FlareMethod::reference ? PupilSearch::thorough : PupilSearch::quick);
+        pupils[g] =
+            find_pupil(system, trace_path<float>(system, ghosts[g]), frame, PupilSearch::quick);
         if (samples.size() > 1) pupils[g].box = widened(pupils[g].box, color_margin);
     });
     if (!finished) return std::nullopt;
@@ -172,14 +189,12 @@ std::optional<FlareImage> render_uniform(const Prescription& lens, const FlareRe
         const GhostPath& ghost = ghosts[t / samples.size()];
         const auto path = trace_path<float>(system, ghost);
         const auto probe = probe_bundle(system, path, frame, pupil.box);
-        const bool reference = request.method == FlareMethod::reference;
-        const double bend_mm = (reference ? reference_bend_px : request.bend_px) * pixels.pitch_mm;
-        int cells = request.grid;
-        if (cells == 0)
-            cells = reference ? std::max(coarsest_reference,
-                                         cells_for_bend(probe, bend_mm, reach_mm, finest_reference))
-                              : cells_for_bend(probe, bend_mm, reach_mm);
-        const auto grid = weighted_grid(system, path, frame, pupil.box, probe, cells, reference);
+        int cells = request.grid != 0
+                              ? request.grid
+                              : cells_for_bend(probe, request.bend_px * pixels.pitch_mm, reach_mm);
+        if (request.grid == 0 && system.stop_mask.picture)
+            cells = std::max(cells, coarsest_pictured);
+        const auto grid = weighted_grid(system, path, frame, pupil.box, probe, cells);
         meshes[t].mesh = ghost_mesh(grid, pixels, 1.0);
         meshes[t].rays = grid.rays() + probe.rays.size();
         sort_into_bands(meshes[t], pixels, bands);
@@ -243,6 +258,8 @@ std::optional<FlareImage> render_uniform(const Prescription& lens, const FlareRe
     double sum = 0.0;
     for (const float value : image.irradiance) sum += static_cast<double>(value);
     image.flux_on_sensor_mm2 = sum * pixels.pixel_area_mm2();
+    if (request.ringing && !add_ringing(compiled_scene(lens, request), request, stop, image))
+        return std::nullopt;
     image.times.total_ms = ms_since(began);
     return image;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <vector>
@@ -17,11 +18,10 @@ namespace ghostlight {
 
 /// How a picture is made.
 enum class FlareMethod {
-    planned,   ///< the least work for a tolerance
-    paraxial,  ///< to first order (Lee and Eisemann 2013)
-    uniform,   ///< every ghost at every wavelength on a grid of its own (Hullin et al. 2011)
-    /// `uniform`, with the thorough search for pupils: what the others are compared with.
-    reference,
+    planned,    ///< the least work for a tolerance
+    paraxial,   ///< to first order (Lee and Eisemann 2013)
+    uniform,    ///< every ghost at every wavelength on a grid of its own (Hullin et al. 2011)
+    reference,  ///< refined until two samplings agree (reference_image.h)
 };
 
 /// What to draw, and how finely. The direct image is not part of the ghost layer.
@@ -29,18 +29,26 @@ struct FlareRequest {
     LightDirection light;
     Spectrum spectrum = Monochromatic{};
     FlareMethod method = FlareMethod::planned;
-    /// planned: L1 error of the ghost layer's irradiance on the sensor, relative to its light.
+    /// planned, reference: L1 error of the ghost layer's irradiance on the sensor, relative to its
+    /// light.
     double tolerance = 0.02;
     /// planned: how hard to look for where ghosts enter; quick while a light is dragged.
     ProbeSearch search = ProbeSearch::careful;
+    /// planned: a plan for a light close to this one, or a lens slightly other. Its ghosts' boxes
+    /// are looked at first, but for every eighth ghost, another eighth for every `turn`: for a
+    /// light that is being dragged, picture by picture.
+    std::shared_ptr<const FlarePlan> nearby;
+    int turn = 0;
     int width_px = 1280;  ///< the height follows from the sensor's shape
     CoatingModel coating_model = CoatingModel::exact;  ///< planned and paraxial
     double bend_px = 0.2;      ///< each ghost's grid is as fine as keeps its map bilinear to this
     int grid = 0;              ///< uniform: cells across every ghost's pupil; 0 = by bend_px
     double culled = 0.0;       ///< uniform: share of the ghosts, the weakest, that is not drawn
-    int spectral_samples = 5;  ///< used when the light is not of one wavelength
-    /// Draw these paths alone, by `uniform`; empty = all ghosts.
+    int spectral_samples = 5;  ///< uniform: used when the light is not of one wavelength
+    /// Draw these paths alone; empty = all ghosts.
     std::vector<GhostPath> only;
+    /// Diffraction at the ghosts' rims, where it shows (ringing.h); not with `paraxial`.
+    bool ringing = false;
     std::vector<GhostPath> highlighted;  ///< these ghosts also go into FlareImage::highlight
     unsigned threads = 0;
 };
@@ -48,6 +56,15 @@ struct FlareRequest {
 /// Wall time of the parts of a picture, ms.
 struct FlareTimes {
     double bounds_ms = 0.0, trace_ms = 0.0, raster_ms = 0.0, composite_ms = 0.0, total_ms = 0.0;
+    double ringing_ms = 0.0;
+};
+
+/// A ghost that got its fringes.
+struct RungGhost {
+    GhostPath path;
+    double fresnel_number = 0.0;
+    double first_fringe_px = 0.0;  ///< from the rim to the first bright one
+    bool propagated = false;       ///< the whole mask, not its edge alone
 };
 
 /// Irradiance / E0 on the sensor. Row 0 is the lowest y, column 0 the lowest x, as seen on the
@@ -63,7 +80,8 @@ struct FlareImage {
     double flux_on_sensor_mm2 = 0.0;
     std::size_t ghosts = 0, rays = 0, cells = 0;
     FlareTimes times;
-    FlarePlan plan;  ///< of the method `planned`; else empty
+    std::vector<RungGhost> ringing;
+    FlarePlan plan;  ///< of the methods `planned` and `reference`; else empty
 };
 
 /// Traces every two-reflection ghost in uniform bundles and accumulates them with exact pixel
@@ -74,8 +92,9 @@ std::optional<FlareImage> render_flare(const Prescription& lens, const FlareRequ
                                        std::stop_token stop = {});
 
 /// The planned method traces half of each beam, turned into the y–z plane: the rectangle of a
-/// sensor that reflects has to be symmetric about that. Where it is not, render_flare() draws
-/// uniformly.
+/// sensor that reflects has to be symmetric about that. Its grids are as fine as the map asks for,
+/// which an image in the stop may not be content with. Where either is the case, render_flare()
+/// draws uniformly.
 bool can_be_planned(const OpticalSystem& system, const LightDirection& light);
 
 /// The method `uniform`.

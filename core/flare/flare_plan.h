@@ -13,7 +13,14 @@ enum class GhostFate {
     drawn,
     off_sensor,      ///< its light lands beside the sensor
     nothing_passes,  ///< no ray was found that passes
-    left_out         ///< not traced: only bounded
+    left_out,        ///< its light is not computed: only bounded
+    folded           ///< not drawn by itself: its light is spread over the veil by its moments
+};
+
+/// Where a ghost's light lands on the sensor plane, and how far it spreads.
+struct GhostMoments {
+    double x_mm = 0.0, y_mm = 0.0;                    ///< centroid
+    double xx_mm2 = 0.0, yy_mm2 = 0.0, xy_mm2 = 0.0;  ///< second moments about it
 };
 
 /// How one ghost of a picture is drawn, and what that costs. Fluxes are over E0, mm².
@@ -26,9 +33,10 @@ struct PlannedGhost {
     int bands = 1;          ///< of the spectrum, each with a geometry of its own
     double flux_mm2 = 0.0;  ///< on the sensor, from the probe
     double whole_flux_mm2 = 0.0;  ///< on the whole plane, from the probe
+    GhostMoments moments;         ///< of all that light, from the probe
     double allowance_mm2 = 0.0;   ///< error that the plan grants
     double error_mm2 = 0.0;       ///< estimated L1 error of its picture
-    double bound_mm2 = 0.0;       ///< of what a ghost that is left out could have carried
+    double bound_mm2 = 0.0;       ///< of the light through its box: what leaving it out may cost
     std::size_t rays = 0;
 };
 
@@ -39,8 +47,15 @@ struct FlarePlan {
     double flux_mm2 = 0.0;      ///< of the ghost layer on the sensor
     double error_mm2 = 0.0;     ///< estimated, of all that is drawn
     double left_out_mm2 = 0.0;  ///< sum of the bounds of what is left out
+    /// Light of four reflections, which no plan draws: an estimate (plane surfaces at normal
+    /// incidence) over that of two.
+    double not_modelled = 0.0;
 
-    double estimated_error() const { return flux_mm2 > 0.0 ? error_mm2 / flux_mm2 : 0.0; }
+    /// Of what is drawn and what is left out, over the light.
+    double estimated_error() const {
+        return flux_mm2 > 0.0 ? (error_mm2 + left_out_mm2) / flux_mm2 : 0.0;
+    }
+    double left_out_share() const { return flux_mm2 > 0.0 ? left_out_mm2 / flux_mm2 : 0.0; }
     std::size_t count(GhostFate fate) const;
 };
 

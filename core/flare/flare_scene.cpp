@@ -55,7 +55,9 @@ FlareScene flare_scene(const Prescription& lens, const Spectrum& spectrum, int s
     const auto samples = sample(spectrum, spectral_samples);
     std::vector<double> weight_nm;
     for (const SpectralSample& s : samples) weight_nm.push_back(s.wavelength_nm);
-    std::vector<OpticalSystem> geometry = compiled(lens, geometry_wavelengths_nm(samples));
+    const std::optional<double> line = line_nm(spectrum);
+    std::vector<OpticalSystem> geometry =
+        compiled(lens, line ? std::vector<double>{*line} : geometry_wavelengths_nm(samples));
     const std::size_t main = geometry.size() / 2;
     std::vector<GhostPath> ghosts = two_reflection_ghosts(geometry[main]);
     return {.spectrum = spectrum,
@@ -65,7 +67,8 @@ FlareScene flare_scene(const Prescription& lens, const Spectrum& spectrum, int s
             .main = main,
             .coating_model = model,
             .films = FilmTables(compiled(lens, weight_nm), threads, model),
-            .ghosts = std::move(ghosts)};
+            .ghosts = std::move(ghosts),
+            .dirt = lens.stop.dirt};
 }
 
 template <int C>

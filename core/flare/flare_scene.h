@@ -28,6 +28,7 @@ struct FlareScene {
     CoatingModel coating_model = CoatingModel::exact;
     FilmTables films;
     std::vector<GhostPath> ghosts;
+    StopDirt dirt;
 
     bool is_gray() const { return samples.size() == 1; }
     const OpticalSystem& system() const { return geometry[main]; }

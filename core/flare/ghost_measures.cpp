@@ -19,7 +19,8 @@ bool is_within(const MeshNodes& nodes, std::size_t k, double least) {
 
 double bend_px(const MeshNodes& nodes, const PixelFrame& frame) {
     const int side = nodes.cells + 1;
-    const double reach = 0.5 * std::hypot(frame.width_px, frame.height_px);
+    const double reach2 =
+        0.25 * (frame.width_px * frame.width_px + frame.height_px * frame.height_px);
     double square = 0.0;
     int count = 0;
     auto look = [&](int k, int step) {
@@ -28,9 +29,9 @@ double bend_px(const MeshNodes& nodes, const PixelFrame& frame) {
         const auto at = [&](const std::vector<float>& values, int n) {
             return static_cast<double>(values[idx(n)]);
         };
-        if (std::hypot(at(nodes.column, k) - 0.5 * frame.width_px,
-                       at(nodes.row, k) - 0.5 * frame.height_px) > reach)
-            return;
+        const double dx = at(nodes.column, k) - 0.5 * frame.width_px;
+        const double dy = at(nodes.row, k) - 0.5 * frame.height_px;
+        if (dx * dx + dy * dy > reach2) return;
         for (const auto* values : {&nodes.column, &nodes.row}) {
             const double off =
                 at(*values, k) - 0.5 * (at(*values, k - step) + at(*values, k + step));
@@ -44,6 +45,38 @@ double bend_px(const MeshNodes& nodes, const PixelFrame& frame) {
             look(i * side + j, side);
         }
     return count > 0 ? 0.25 * std::sqrt(square / count) : 0.0;
+}
+
+double rim_px(const MeshNodes& nodes, const PixelFrame& frame) {
+    const int side = nodes.cells + 1;
+    double sum = 0.0;
+    int count = 0;
+    for (int j = 1; j + 1 < side; ++j)
+        for (int i = 1; i + 1 < side; ++i) {
+            const int k = j * side + i;
+            if (!is_within(nodes, idx(k), near_rim)) continue;
+            const auto at = [&](const std::vector<float>& values, int n) {
+                return static_cast<double>(values[idx(n)]);
+            };
+            const double du_x = 0.5 * (at(nodes.column, k + 1) - at(nodes.column, k - 1));
+            const double du_y = 0.5 * (at(nodes.row, k + 1) - at(nodes.row, k - 1));
+            const double dv_x = 0.5 * (at(nodes.column, k + side) - at(nodes.column, k - side));
+            const double dv_y = 0.5 * (at(nodes.row, k + side) - at(nodes.row, k - side));
+            const double size_px = std::min(std::sqrt(std::abs(du_x * dv_y - du_y * dv_x)),
+                                            static_cast<double>(frame.width_px));
+            for (const auto& c : nodes.clearances) {
+                const double u = 0.5 * (at(c, k + 1) - at(c, k - 1));
+                const double v = 0.5 * (at(c, k + side) - at(c, k - side));
+                const double slope = std::hypot(u, v);
+                // Only cells that the rim goes through.
+                if (!(slope > 0.0) || std::abs(at(c, k)) > slope) continue;
+                const double bend = at(c, k + 1) + at(c, k - 1) + at(c, k + side) +
+                                    at(c, k - side) - 4.0 * at(c, k);
+                sum += std::min(1.0, std::abs(bend) / (8.0 * slope)) * size_px;
+                ++count;
+            }
+        }
+    return count > 0 ? sum / count : 0.0;
 }
 
 double shift_px(const MeshNodes& a, const MeshNodes& b) {
@@ -114,6 +147,18 @@ std::vector<int> singular_cells(const MirrorGrid& grid, const MeshNodes& nodes) 
     return cells;
 }
 
+double light_in(const std::vector<int>& cells, const MeshNodes& nodes) {
+    const int side = nodes.cells + 1;
+    double sum = 0.0;
+    for (const int cell : cells) {
+        const int a = cell / nodes.cells * side + cell % nodes.cells;
+        for (const int k : {a, a + 1, a + side, a + side + 1})
+            if (is_within(nodes, idx(k), 0.0)) sum += static_cast<double>(nodes.weights[idx(k)]);
+    }
+    // A quarter for each corner; each cell stands for its mirror image too.
+    return 0.5 * sum * nodes.cell_area_mm2;
+}
+
 FrameLight light_on_frame(const MeshNodes& nodes, const PixelFrame& frame) {
     /// A cell about the whole frame has no corner on it.
     constexpr double least_on_frame = 0.1;
@@ -149,6 +194,37 @@ FrameLight light_on_frame(const MeshNodes& nodes, const PixelFrame& frame) {
                               std::max(0.25 * on_frame, least_on_frame);
         }
     return light;
+}
+
+GhostMoments moments_of(const MeshNodes& nodes, const PixelFrame& frame) {
+    // About the frame's middle, in pixels, for accuracy; a cell counts by its corners that pass.
+    const double column = 0.5 * frame.width_px, row = 0.5 * frame.height_px;
+    double sum = 0.0, x = 0.0, y = 0.0, xx = 0.0, yy = 0.0, xy = 0.0;
+    const int side = nodes.cells + 1;
+    for (int j = 0; j < side; ++j)
+        for (int i = 0; i < side; ++i) {
+            const std::size_t k = idx(j * side + i);
+            if (!is_within(nodes, k, 0.0)) continue;
+            // Nodes on the grid's edge stand for half a cell, at its corners for a quarter.
+            const double share =
+                (i == 0 || i == nodes.cells ? 0.5 : 1.0) * (j == 0 || j == nodes.cells ? 0.5 : 1.0);
+            const double w = share * static_cast<double>(nodes.weights[k]);
+            const double dx = static_cast<double>(nodes.column[k]) - column;
+            const double dy = static_cast<double>(nodes.row[k]) - row;
+            sum += w;
+            x += w * dx;
+            y += w * dy;
+            xx += w * dx * dx;
+            yy += w * dy * dy;
+            xy += w * dx * dy;
+        }
+    if (!(sum > 0.0)) return {};
+    x /= sum;
+    y /= sum;
+    const double pitch2 = frame.pitch_mm * frame.pitch_mm;
+    return {frame.left_mm + (column + x) * frame.pitch_mm,
+            frame.bottom_mm + (row + y) * frame.pitch_mm, (xx / sum - x * x) * pitch2,
+            (yy / sum - y * y) * pitch2, (xy / sum - x * y) * pitch2};
 }
 
 }  // namespace ghostlight

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/flare/color_mesh.h"
+#include "core/flare/flare_plan.h"
 #include "core/ghosts/mirror_grid.h"
 
 namespace ghostlight {
@@ -18,6 +19,10 @@ inline constexpr double near_rim = -0.15;
 /// near the frame: what a grid twice as coarse gets wrong, hence four times what this one does.
 double bend_px(const MeshNodes& nodes, const PixelFrame& frame);
 
+/// How far the chords that a grid draws a rim by are from it in their middle, mean over the cells
+/// that a rim goes through. Falls fourfold on doubling the grid.
+double rim_px(const MeshNodes& nodes, const PixelFrame& frame);
+
 /// RMS distance between the nodes of two grids on the sensor, over what passes both.
 double shift_px(const MeshNodes& a, const MeshNodes& b);
 
@@ -29,6 +34,9 @@ double roughness(const MirrorGrid& grid, const std::vector<float>& light);
 /// something else stops all their light: there map and weight go as a square root.
 std::vector<int> singular_cells(const MirrorGrid& grid, const MeshNodes& nodes);
 
+/// The light through cells of the half with u ≥ 0 and their mirror images, mm² over E0.
+double light_in(const std::vector<int>& cells, const MeshNodes& nodes);
+
 /// What a probe says of the light that a ghost brings to the frame.
 struct FrameLight {
     double flux_mm2 = 0.0;
@@ -36,5 +44,8 @@ struct FrameLight {
     bool passes = false, near_frame = false;
 };
 FrameLight light_on_frame(const MeshNodes& nodes, const PixelFrame& frame);
+
+/// Where that light lands, on the frame or beside it.
+GhostMoments moments_of(const MeshNodes& nodes, const PixelFrame& frame);
 
 }  // namespace ghostlight

@@ -1,6 +1,7 @@
 #include "core/flare/grid_light.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace ghostlight {
@@ -72,28 +73,97 @@ void correct_means(const MirrorGrid& grid, int channels, std::vector<float>& val
         }
 }
 
-void interpolate(const MirrorGrid& from, const std::vector<float>& values, int channels, int cells,
-                 std::vector<float>& nodes) {
+namespace {
+
+/// One column of a full grid between the columns of a half grid.
+struct Between {
+    int column = 0;
+    float share = 0.0F;
+};
+
+template <int C>
+void interpolate_channels(const MirrorGrid& from, const std::vector<float>& values, int cells,
+                          std::vector<float>& nodes) {
     const int across = from.half_side(), side = cells + 1;
-    nodes.resize(idx(side * side * channels));
+    nodes.resize(idx(side * side * C));
+    std::vector<Between> columns(idx(side));
+    for (int i = 0; i < side; ++i) {
+        const float x = std::abs(static_cast<float>(i * from.cells) / static_cast<float>(cells) -
+                                 0.5F * static_cast<float>(from.cells));
+        const int column = std::min(static_cast<int>(x), across - 2);
+        columns[idx(i)] = {column * C, x - static_cast<float>(column)};
+    }
+    std::vector<float> row(idx(across * C));
     for (int j = 0; j < side; ++j) {
         const float y = static_cast<float>(j * from.cells) / static_cast<float>(cells);
         const int j0 = std::min(static_cast<int>(y), from.cells - 1);
         const float fy = y - static_cast<float>(j0);
-        for (int i = 0; i < side; ++i) {
-            const float x =
-                std::abs(static_cast<float>(i * from.cells) / static_cast<float>(cells) -
-                         0.5F * static_cast<float>(from.cells));
-            const int i0 = std::min(static_cast<int>(x), across - 2);
-            const float fx = x - static_cast<float>(i0);
-            const float* low = values.data() + (j0 * across + i0) * channels;
-            const float* high = low + across * channels;
-            float* to = nodes.data() + (j * side + i) * channels;
-            for (int c = 0; c < channels; ++c)
-                to[c] = std::lerp(std::lerp(low[c], low[channels + c], fx),
-                                  std::lerp(high[c], high[channels + c], fx), fy);
+        const float* low = values.data() + j0 * across * C;
+        const float* high = low + across * C;
+        for (int k = 0; k < across * C; ++k) row[idx(k)] = low[k] + fy * (high[k] - low[k]);
+        float* to = nodes.data() + j * side * C;
+        for (const Between& at : columns) {
+            const float* left = row.data() + at.column;
+            for (int c = 0; c < C; ++c) to[c] = left[c] + at.share * (left[C + c] - left[c]);
+            to += C;
         }
     }
+}
+
+}  // namespace
+
+void interpolate(const MirrorGrid& from, const std::vector<float>& values, int channels, int cells,
+                 std::vector<float>& nodes) {
+    channels == 1 ? interpolate_channels<1>(from, values, cells, nodes)
+                  : interpolate_channels<4>(from, values, cells, nodes);
+}
+
+namespace {
+
+/// Four neighbouring nodes of a line, and their shares at a place between the middle two (or the
+/// outer two, at an end): Lagrange's cubic.
+struct Cubic {
+    int first = 0;
+    std::array<float, 4> share{};
+};
+
+Cubic cubic_at(float x, int first, int last) {
+    Cubic at;
+    at.first = std::clamp(static_cast<int>(std::floor(x)) - 1, first, last - 3);
+    const float t = x - static_cast<float>(at.first);
+    at.share = {(t - 1.0F) * (t - 2.0F) * (t - 3.0F) / -6.0F, t * (t - 2.0F) * (t - 3.0F) / 2.0F,
+                t * (t - 1.0F) * (t - 3.0F) / -2.0F, t * (t - 1.0F) * (t - 2.0F) / 6.0F};
+    return at;
+}
+
+}  // namespace
+
+std::vector<float> interpolate_smooth(const MirrorGrid& from, const std::vector<float>& values,
+                                      int cells) {
+    const int across = from.half_side(), side = cells + 1, half = cells / 2 + 1;
+    const float scale = static_cast<float>(from.cells) / static_cast<float>(cells);
+    std::vector<Cubic> columns;
+    // One mirrored column on the other side of the middle belongs to the same smooth function.
+    for (int i = 0; i < half; ++i)
+        columns.push_back(cubic_at(static_cast<float>(i) * scale, -1, across - 1));
+    std::vector<float> result(idx(side * half)), row(idx(across));
+    for (int j = 0; j < side; ++j) {
+        const Cubic up = cubic_at(static_cast<float>(j) * scale, 0, from.cells);
+        for (int m = 0; m < across; ++m) {
+            float sum = 0.0F;
+            for (int k = 0; k < 4; ++k)
+                sum += up.share[idx(k)] * values[idx((up.first + k) * across + m)];
+            row[idx(m)] = sum;
+        }
+        for (int i = 0; i < half; ++i) {
+            float sum = 0.0F;
+            for (int k = 0; k < 4; ++k)
+                sum +=
+                    columns[idx(i)].share[idx(k)] * row[idx(std::abs(columns[idx(i)].first + k))];
+            result[idx(j * half + i)] = sum;
+        }
+    }
+    return result;
 }
 
 }  // namespace ghostlight

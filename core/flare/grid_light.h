@@ -31,8 +31,13 @@ void fill_failed(const MirrorGrid& grid, int channels, std::vector<float>& value
 void correct_means(const MirrorGrid& grid, int channels, std::vector<float>& values);
 
 /// Values of a half grid at the nodes of a full grid of cells × cells over the same box,
-/// bilinearly.
+/// bilinearly; 1 or 4 channels.
 void interpolate(const MirrorGrid& from, const std::vector<float>& values, int channels, int cells,
                  std::vector<float>& nodes);
+
+/// Values of a half grid, one a ray, at the rays of the half grid of cells × cells over the same
+/// box: by cubics through four nodes each way, to fourth order where the values are smooth.
+std::vector<float> interpolate_smooth(const MirrorGrid& from, const std::vector<float>& values,
+                                      int cells);
 
 }  // namespace ghostlight

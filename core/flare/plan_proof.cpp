@@ -34,17 +34,14 @@ std::optional<PlanProof> certify(const FlareScene& scene, const LightDirection& 
             const PlannedGhost& planned = plan.ghosts[g];
             GhostProof& ghost = result.ghosts[g];
             ghost.path = planned.path;
-            if (planned.fate == GhostFate::left_out) {
-                ghost.proof.missed_flux_bound_mm2 = planned.bound_mm2;
-            } else {
-                const PupilBox claimed =
-                    planned.fate == GhostFate::drawn ? planned.box : PupilBox{};
-                for (const OpticalSystem& system : scene.geometry) {
-                    const PupilProof at =
-                        prove_pupil(system, planned.path, frame, claimed, effort, stop);
-                    if (at.cells > 0 && at.missed_flux_bound_mm2 >= ghost.missed_flux_bound_mm2())
-                        ghost.proof = at;
-                }
+            const bool has_box =
+                planned.fate != GhostFate::nothing_passes && planned.fate != GhostFate::off_sensor;
+            const PupilBox claimed = has_box ? planned.box : PupilBox{};
+            for (const OpticalSystem& system : scene.geometry) {
+                const PupilProof at =
+                    prove_pupil(system, planned.path, frame, claimed, effort, stop);
+                if (at.cells > 0 && at.missed_flux_bound_mm2 >= ghost.missed_flux_bound_mm2())
+                    ghost.proof = at;
             }
             ghost.certified = ghost.missed_flux_bound_mm2() <= enough_mm2;
             if (progress)

@@ -37,10 +37,11 @@ struct PlanProofRequest {
     unsigned threads = 0;           ///< 0 = all cores; the result does not depend on it
 };
 
-/// Proves a plan made for this scene and light: ghosts drawn are dark outside their boxes, those
-/// through which nothing passes dark everywhere, those off the sensor send no light to it. For
-/// every wavelength at which the scene's geometry is traced. A ghost left out is bounded by its
-/// plan. Returns nothing when stopped; `progress` is called from any thread with the share done.
+/// Proves a plan made for this scene and light: ghosts drawn, folded or left out are dark outside
+/// their boxes, those through which nothing passes dark everywhere, those off the sensor send no
+/// light to it. For every wavelength at which the scene's geometry is traced. What is left out
+/// inside its box is FlarePlan::left_out_mm2. Returns nothing when stopped; `progress` is called
+/// from any thread with the share done.
 std::optional<PlanProof> certify(const FlareScene& scene, const LightDirection& light,
                                  const FlarePlan& plan, const PlanProofRequest& request = {},
                                  std::stop_token stop = {},

@@ -6,6 +6,8 @@
 #include "core/elapsed.h"
 #include "core/flare/draw_picture.h"
 #include "core/flare/planned_ghost.h"
+#include "core/flare/probe_all.h"
+#include "core/flare/ringing.h"
 #include "core/parallel.h"
 
 namespace ghostlight {
@@ -21,7 +23,6 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
     FlareImage image = empty_image(system, frame);
     const std::vector<GhostPath>& ghosts = request.only.empty() ? scene.ghosts : request.only;
     image.ghosts = ghosts.size();
-    image.plan.tolerance = request.tolerance;
 
     const GhostPlanner planner(scene, request.light, frame, request.search);
     auto found = probe_all(scene, planner, request, stop);
@@ -54,10 +55,9 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
                               : drawn[g].mesh.flux_mm2[C - 1];
         image.cells += drawn[g].mesh.cells;
         image.rays += probed[g].planned.rays;
-        image.plan.flux_mm2 += probed[g].planned.flux_mm2;
-        image.plan.error_mm2 += probed[g].planned.error_mm2;
-        image.plan.ghosts.push_back(std::move(probed[g].planned));
     }
+    image.plan = plan_of(scene, request, probed);
+    if (request.ringing && !add_ringing(scene, request, stop, image)) return std::nullopt;
     image.times.total_ms = ms_since(began);
     return image;
 }

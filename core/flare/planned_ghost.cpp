@@ -5,36 +5,24 @@
 #include <utility>
 
 #include "core/flare/ghost_measures.h"
+#include "core/flare/ghost_weights.h"
 #include "core/flare/grid_light.h"
 #include "core/flare/picture_levels.h"
-#include "core/parallel.h"
-#include "core/units.h"
 
 namespace ghostlight {
 namespace {
 
-/// Errors of ghosts cancel in part where they overlap, and the estimates are cautious: what is
-/// granted in all, over what is asked.
-constexpr double granted_share = 0.5;
-constexpr double most_share = 0.5;  ///< of a ghost's own light
-constexpr int probe_cells = 12;
-constexpr int close_cells = 48;          ///< where hardly a ray of a probe passes
-constexpr std::size_t few_passing = 12;  ///< of a probe's nodes
 constexpr int finest_cells = 256;
 constexpr int most_bands = 24;
 /// How a ghost's allowance is shared among what its picture gets wrong.
 constexpr double level_share = 0.45, grid_share = 0.2, band_share = 0.2, weight_share = 0.15;
-/// Singular cells are split in ghosts that have this many times the light of their allowance.
-constexpr double split_above = 5.0;
-constexpr int split_cells = 4;        ///< across a singular cell
+/// Singular cells are split where what they get wrong is more than this share of the allowance.
+constexpr double singular_share = 0.0;
+constexpr int split_cells = 4;  ///< across a singular cell
+/// Polarisation is traced anew where interpolating it costs more than this share of what weights
+/// may.
+constexpr double polarised_share_of_weight = 0.3;
 constexpr int most_rough_cells = 96;  ///< for the weights' sake
-/// Of the bend times the contrast: only its part across an edge counts, and most of the contrast
-/// is at rims, where chords follow the bend. Calibrated on all bundled lenses, see
-/// docs/benchmarks.md.
-constexpr double grid_factor = 0.3;
-/// Of the shift between the outer geometry wavelengths times the contrast: most of the light lies
-/// well within them, and shifts along a rim do not matter. Calibrated likewise.
-constexpr double merging_factor = 0.02;
 
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 
@@ -51,73 +39,6 @@ double unsaturated(double allowed_mm2, double flux_mm2) {
 }
 
 }  // namespace
-
-GhostPlanner::GhostPlanner(const FlareScene& scene, const LightDirection& light,
-                           const PixelFrame& frame, ProbeSearch search)
-    : scene_(scene),
-      frame_(frame),
-      search_(search),
-      beam_(beam_frame({light.field_deg, 90.0})),
-      stop_mask_(scene.system().stop_mask),
-      entrance_(entrance_box(scene.system(), beam_)) {
-    const double turn = rad_from_deg(light.azimuth_deg - 90.0);
-    cos_azimuth_ = std::cos(turn);
-    sin_azimuth_ = std::sin(turn);
-    stop_mask_.rotation_rad -= turn;
-}
-
-template <class RayOf>
-MeshNodes GhostPlanner::place(const Bundle<float>& rays, int cells, double cell_area_mm2,
-                              RayOf ray_of) const {
-    MeshNodes nodes;
-    nodes.cells = cells;
-    nodes.cell_area_mm2 = cell_area_mm2;
-    const int side = cells + 1;
-    const std::size_t count = idx(side * side);
-    nodes.column.resize(count);
-    nodes.row.resize(count);
-    nodes.margin.resize(count);
-    const int edges = stop_edges(stop_mask_);
-    nodes.clearances.assign(1 + idx(rays.stop_crossings * edges), std::vector<float>(count));
-    const auto pitch = static_cast<float>(1.0 / frame_.pitch_mm);
-    const auto xc = static_cast<float>(cos_azimuth_) * pitch;
-    const auto xs = static_cast<float>(sin_azimuth_) * pitch;
-    const auto left = static_cast<float>(-frame_.left_mm) * pitch;
-    const auto bottom = static_cast<float>(-frame_.bottom_mm) * pitch;
-    const auto inverse_stop = static_cast<float>(1.0 / stop_mask_.semi_diameter_mm);
-    std::size_t k = 0;
-    for (int j = 0; j < side; ++j)
-        for (int i = 0; i < side; ++i, ++k) {
-            const auto [of, mirror] = ray_of(i, j);
-            const float x = mirror * rays.x_mm[of], y = rays.y_mm[of];
-            nodes.column[k] = xc * x - xs * y + left;
-            nodes.row[k] = xs * x + xc * y + bottom;
-            nodes.margin[k] = rays.margin[of];
-            nodes.clearances[0][k] = 1.0F - rays.r_rel[of];
-            for (int s = 0; s < rays.stop_crossings; ++s) {
-                const float u = mirror * rays.stop_u_mm[idx(s)][of];
-                const float v = rays.stop_v_mm[idx(s)][of];
-                // Linear along the radius, unlike stop_margin: chords fit a rim better.
-                if (stop_mask_.blades == 0) {
-                    nodes.clearances[1 + idx(s)][k] =
-                        1.0F - std::sqrt(u * u + v * v) * inverse_stop;
-                    continue;
-                }
-                for (int edge = 0; edge < edges; ++edge)
-                    nodes.clearances[1 + idx(s * edges + edge)][k] = static_cast<float>(stop_margin(
-                        stop_mask_, edge, static_cast<double>(u), static_cast<double>(v)));
-            }
-        }
-    for (auto& clearance : nodes.clearances) correct_curvature(cells, clearance);
-    return nodes;
-}
-
-MeshNodes GhostPlanner::place(const MirrorGrid& grid) const {
-    return place(grid.half, grid.cells, grid.box.area_mm2() / (grid.cells * grid.cells),
-                 [&](int i, int j) {
-                     return std::pair{grid.of_node(i, j), grid.is_mirrored(i) ? -1.0F : 1.0F};
-                 });
-}
 
 MeshNodes GhostPlanner::at_wavelength(const std::vector<MeshNodes>& placed,
                                       double wavelength_nm) const {
@@ -150,94 +71,13 @@ MeshNodes GhostPlanner::at_wavelength(const std::vector<MeshNodes>& placed,
     return nodes;
 }
 
-std::vector<float> GhostPlanner::weigh(const TracePath<float>& trace,
-                                       const MirrorGrid& grid) const {
-    std::vector<float> weights;
-    scene_.films.weights(trace, grid.half, weights);
-    // Polarisation: its effect on the whole path, at one wavelength, ray by ray.
-    const Bundle<float>& rays = grid.half;
-    const std::size_t stride = scene_.films.stride();
-    const bool exact = scene_.coating_model == CoatingModel::exact;
-    for (std::size_t k = 0; exact && k < rays.size(); ++k) {
-        const float average = rays.weight_average[k];
-        const float ratio = average > 0.0F ? rays.weight[k] / average : 0.0F;
-        for (std::size_t w = 0; w < stride; ++w) weights[k * stride + w] *= ratio;
-    }
-    fill_failed(grid, static_cast<int>(stride), weights);
-    return weights;
-}
-
-ProbedGhost GhostPlanner::probe(const GhostPath& path) const {
-    ProbedGhost result;
-    PlannedGhost& planned = result.planned;
-    planned.path = path;
-    const auto trace = trace_path<float>(scene_.system(), path);
-    GhostProbe probe = probe_ghost(scene_.system(), trace, beam_, entrance_, probe_cells, search_);
-    planned.rays = probe.rays;
-    if (probe.empty) {
-        planned.fate = GhostFate::nothing_passes;
-        return result;
-    }
-    planned.box = probe.grid.box;
-    result.weights = weigh(trace, probe.grid);
-    for (std::size_t g = 0; g < scene_.geometry.size(); ++g) {
-        if (g == scene_.main) {
-            result.grids.push_back(std::move(probe.grid));
-            continue;
-        }
-        MirrorGrid& grid = result.grids.emplace_back();
-        grid.box = planned.box;
-        grid.cells = probe_cells;
-        trace_mirrored(trace_path<float>(scene_.geometry[g], path), beam_, Weights::none, grid);
-        planned.rays += grid.half.size();
-    }
-
-    const MirrorGrid& grid = result.grids[scene_.main];
-    MirrorGrid closer;
-    if (probe.passing < few_passing) {
-        closer = traced(planned, scene_.main, close_cells, Weights::none);
-        planned.rays += closer.half.size();
-    }
-    const MirrorGrid& first = closer.cells > 0 ? closer : grid;
-    MeshNodes nodes = place(first);
-    interpolate(
-        grid,
-        light_of<gray_channels>(grid, result.weights, channel_shares<gray_channels>(scene_, 0, 1)),
-        1, nodes.cells, nodes.weights);
-    const FrameLight light = light_on_frame(nodes, frame_);
-    planned.flux_mm2 = light.flux_mm2;
-    planned.whole_flux_mm2 = light.whole_flux_mm2;
-    if (!light.passes)
-        planned.fate = GhostFate::nothing_passes;
-    else if (!light.near_frame)
-        planned.fate = GhostFate::off_sensor;
-    else
-        look(first, nodes, result);
-    return result;
-}
-
-/// Light per E0 in each channel, ray by ray of a half grid, made ready for interpolation.
-template <int C>
-std::vector<float> GhostPlanner::light_of(const MirrorGrid& grid, const std::vector<float>& weights,
-                                          const std::vector<float>& shares) const {
-    const std::size_t stride = scene_.films.stride();
-    std::vector<float> light(grid.half.size() * C, 0.0F);
-    for (std::size_t k = 0; k < grid.half.size(); ++k)
-        for (std::size_t w = 0; w < scene_.samples.size(); ++w) {
-            const float value = weights[k * stride + w];
-            for (std::size_t c = 0; c < C; ++c) light[k * C + c] += shares[w * C + c] * value;
-        }
-    correct_means(grid, C, light);
-    return light;
-}
-
 template <int C>
 void GhostPlanner::draw_grids(const std::vector<const MirrorGrid*>& geometry,
                               const MirrorGrid& weight_grid, const std::vector<float>& weights,
                               int bands, bool split, const PlannedGhost& planned,
                               ColorMesh<C>& mesh) const {
     std::vector<MeshNodes> placed;
-    for (const MirrorGrid* grid : geometry) placed.push_back(place(*grid));
+    for (const MirrorGrid* grid : geometry) placed.push_back(placement_.place(*grid));
     const MirrorGrid& main = geometry.size() == 1 ? *geometry.front() : *geometry[scene_.main];
     const std::vector<int> singular =
         split ? singular_cells(main, placed.size() == 1 ? placed.front() : placed[scene_.main])
@@ -245,9 +85,10 @@ void GhostPlanner::draw_grids(const std::vector<const MirrorGrid*>& geometry,
     const ColorAxis axis(scene_.samples);
     for (int band = 0; band < bands; ++band) {
         MeshNodes nodes = at_wavelength(placed, axis.wavelength_nm((band + 0.5) / bands));
-        interpolate(weight_grid,
-                    light_of<C>(weight_grid, weights, channel_shares<C>(scene_, band, bands)), C,
-                    nodes.cells, nodes.weights);
+        interpolate(
+            weight_grid,
+            ray_light<C>(scene_, weight_grid, weights, channel_shares<C>(scene_, band, bands)), C,
+            nodes.cells, nodes.weights);
         if (!singular.empty()) {
             nodes.skipped.assign(idx(nodes.cells * nodes.cells), 0);
             for (const int cell : singular) {
@@ -256,12 +97,12 @@ void GhostPlanner::draw_grids(const std::vector<const MirrorGrid*>& geometry,
                 nodes.skipped[idx(j * nodes.cells + nodes.cells - 1 - i)] = 1;
             }
         }
-        add_grid(nodes, frame_, mesh);
+        add_grid(nodes, placement_.frame(), mesh);
     }
     if (!singular.empty())
         draw_singular(main, singular, weight_grid,
-                      light_of<C>(weight_grid, weights, channel_shares<C>(scene_, 0, 1)), planned,
-                      mesh);
+                      ray_light<C>(scene_, weight_grid, weights, channel_shares<C>(scene_, 0, 1)),
+                      planned, mesh);
 }
 
 /// Traces singular cells of the half with u ≥ 0 on grids of their own, with films and polarisation
@@ -313,43 +154,12 @@ void GhostPlanner::draw_singular(const MirrorGrid& grid, const std::vector<int>&
         grid.box.area_mm2() / (grid.cells * grid.cells * split_cells * split_cells);
     for (std::size_t n = 0; n < cells.size(); ++n)
         for (const float mirror : {1.0F, -1.0F}) {
-            MeshNodes nodes = place(rays, split_cells, cell_area_mm2, [&](int a, int b) {
-                return std::pair{n * side * side + idx(b * side + a), mirror};
-            });
+            MeshNodes nodes =
+                placement_.place(rays, n * side * side, split_cells, cell_area_mm2, mirror);
             const auto first = weights.begin() + static_cast<std::ptrdiff_t>(n * side * side * C);
             nodes.weights.assign(first, first + side * side * C);
-            add_grid(nodes, frame_, mesh);
+            add_grid(nodes, placement_.frame(), mesh);
         }
-}
-
-MirrorGrid GhostPlanner::traced(const PlannedGhost& planned, std::size_t node, int cells,
-                                Weights weights) const {
-    MirrorGrid grid{planned.box, cells, {}};
-    grid.half.keep_cosines = weights != Weights::none;
-    trace_mirrored(trace_path<float>(scene_.geometry[node], planned.path), beam_, weights, grid);
-    return grid;
-}
-
-/// What a plain drawing of the first grid would get wrong.
-void GhostPlanner::look(const MirrorGrid& first, const MeshNodes& nodes, ProbedGhost& ghost) const {
-    const double pixel_mm2 = frame_.pixel_area_mm2();
-    ColorMesh<gray_channels> mesh;
-    add_grid(nodes, frame_, mesh);
-    const double contrast = mesh.edge_contrast * pixel_mm2;
-    FirstErrors& errors = ghost.errors;
-    errors.contrast_mm2 = contrast;
-    errors.cells = first.cells;
-    errors.area_px2 = mesh.area_px2;
-    // The error of a bilinear map falls fourfold on doubling the grid.
-    errors.grid_mm2 = grid_factor * contrast * bend_px(nodes, frame_);
-    if (scene_.geometry.size() > 1)
-        errors.merging_mm2 = merging_factor * contrast *
-                             shift_px(place(ghost.grids.front()), place(ghost.grids.back()));
-    const MirrorGrid& probe = ghost.grids[scene_.main];
-    errors.weight_mm2 =
-        ghost.planned.flux_mm2 *
-        roughness(probe, light_of<gray_channels>(probe, ghost.weights,
-                                                 channel_shares<gray_channels>(scene_, 0, 1)));
 }
 
 namespace {
@@ -393,19 +203,21 @@ GhostPlanner::Fineness GhostPlanner::choose(const ProbedGhost& ghost) const {
         chosen.cells = std::max(
             chosen.cells,
             std::min(most_rough_cells, cells_for(probe_cells, first.weight_mm2, weight_allowed)));
-    const MirrorGrid& probe = ghost.grids[scene_.main];
-    chosen.split = scene_.coating_model == CoatingModel::exact &&
-                   flux > split_above * planned.allowance_mm2 &&
-                   !singular_cells(probe, place(probe)).empty();
-
+    chosen.polarised =
+        chosen.rough && ghost.polarised.error * flux > polarised_share_of_weight * weight_allowed;
     auto fallen = [](double error, int from, int to) {
         return error * static_cast<double>(from * from) / (to * to);
     };
+    // The cells along the edge grow fewer as they shrink, and a root's error with their size.
+    const double shrunk = static_cast<double>(first.cells) / chosen.cells;
+    const double singular_mm2 = first.singular_mm2 * shrunk * std::sqrt(shrunk);
+    chosen.split = singular_mm2 > singular_share * spread;
     chosen.error_mm2 =
         saturated(fallen(first.grid_mm2, first.cells, chosen.cells), flux) +
         saturated(fallen(first.merging_mm2, 1, chosen.bands), flux) +
         std::min(flux, chosen.rough ? fallen(first.weight_mm2, probe_cells, chosen.cells)
-                                    : first.weight_mm2);
+                                    : first.weight_mm2) +
+        (chosen.split ? 0.0 : std::min(flux, singular_mm2));
     return chosen;
 }
 
@@ -425,33 +237,44 @@ template <int C>
 void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
     PlannedGhost& planned = ghost.planned;
     const Fineness chosen = choose(ghost);
-    const auto [cells, bands, rough, split, error_mm2] = chosen;
+    const auto [cells, bands, rough, polarised, split, error_mm2] = chosen;
     planned.cells = cells;
     planned.bands = bands;
 
-    const MirrorGrid& probe = ghost.grids[scene_.main];
+    const MirrorGrid& probe = ghost.grid;
     std::vector<MirrorGrid> finer;
     std::vector<const MirrorGrid*> geometry;
     for (std::size_t g = 0; g < scene_.geometry.size(); ++g)
         if (bands > 1 || g == scene_.main) {
-            if (cells == probe_cells)
-                geometry.push_back(&ghost.grids[g]);
-            else
+            const bool is_probe = g == scene_.main && cells == probe_cells;
+            if (!is_probe)
                 finer.push_back(
-                    traced(planned, g, cells,
-                           rough && g == scene_.main ? Weights::polarised : Weights::none));
+                    traced(planned, g, cells, rough && g == scene_.main,
+                           polarised && g == scene_.main ? Weights::polarised : Weights::none));
         }
-    for (const MirrorGrid& grid : finer) {
-        geometry.push_back(&grid);
-        planned.rays += grid.half.size();
-    }
+    for (const MirrorGrid& grid : finer) planned.rays += grid.half.size();
+    auto next = finer.begin();
+    for (std::size_t g = 0; g < scene_.geometry.size(); ++g)
+        if (bands > 1 || g == scene_.main)
+            geometry.push_back(g == scene_.main && cells == probe_cells ? &probe : &*next++);
     const MirrorGrid& main = geometry.size() == 1 ? *geometry.front() : *geometry[scene_.main];
     if (rough && cells != probe_cells)
-        draw_grids(geometry, main, weigh(trace_path<float>(scene_.system(), planned.path), main),
+        draw_grids(geometry, main,
+                   ghost_weights(scene_, trace_path<float>(scene_.system(), planned.path), main,
+                                 ghost.polarised),
                    bands, split, planned, mesh);
     else
         draw_grids(geometry, probe, ghost.weights, bands, split, planned, mesh);
-    choose_level(chosen, mesh.edge_contrast * frame_.pixel_area_mm2(), planned);
+    choose_level(chosen, mesh.edge_contrast * placement_.frame().pixel_area_mm2(), planned);
+}
+
+MeshNodes GhostPlanner::landed(const ProbedGhost& ghost) const {
+    MeshNodes nodes = placement_.place(ghost.grid);
+    interpolate(ghost.grid,
+                ray_light<color_channels>(scene_, ghost.grid, ghost.weights,
+                                          channel_shares<color_channels>(scene_, 0, 1)),
+                color_channels, nodes.cells, nodes.weights);
+    return nodes;
 }
 
 GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
@@ -462,25 +285,27 @@ GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
     choose_level(chosen, ghost.errors.contrast_mm2, planned);
 
     GhostDrawing drawing;
-    const MirrorGrid& probe = ghost.grids[scene_.main];
+    const MirrorGrid& probe = ghost.grid;
     const bool own_weights = chosen.rough && planned.cells != probe_cells;
     MirrorGrid fine;
     std::vector<float> fine_weights;
     if (planned.cells != probe_cells && (own_weights || chosen.split)) {
-        fine = traced(planned, scene_.main, planned.cells,
-                      own_weights ? Weights::polarised : Weights::none);
+        fine = traced(planned, scene_.main, planned.cells, own_weights,
+                      chosen.polarised ? Weights::polarised : Weights::none);
         planned.rays += fine.half.size();
     }
-    if (own_weights) fine_weights = weigh(trace_path<float>(scene_.system(), planned.path), fine);
+    if (own_weights)
+        fine_weights = ghost_weights(scene_, trace_path<float>(scene_.system(), planned.path), fine,
+                                     ghost.polarised);
     const MirrorGrid& weight_grid = own_weights ? fine : probe;
     const std::vector<float>& weights = own_weights ? fine_weights : ghost.weights;
     auto light = [&](int band, int bands) {
-        return light_of<color_channels>(weight_grid, weights,
-                                        channel_shares<color_channels>(scene_, band, bands));
+        return ray_light<color_channels>(scene_, weight_grid, weights,
+                                         channel_shares<color_channels>(scene_, band, bands));
     };
     if (chosen.split) {
         const MirrorGrid& grid = planned.cells == probe_cells ? probe : fine;
-        drawing.singular = singular_cells(grid, place(grid));
+        drawing.singular = singular_cells(grid, placement_.place(grid));
         drawing.singular_across = split_cells;
         drawing.singular_light = trace_singular<color_channels>(grid, drawing.singular, weight_grid,
                                                                 light(0, 1), planned)
@@ -495,30 +320,6 @@ GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
     }
     drawing.planned = planned;
     return drawing;
-}
-
-std::optional<std::vector<ProbedGhost>> probe_all(const FlareScene& scene,
-                                                  const GhostPlanner& planner,
-                                                  const FlareRequest& request,
-                                                  std::stop_token stop) {
-    const std::vector<GhostPath>& ghosts = request.only.empty() ? scene.ghosts : request.only;
-    std::vector<ProbedGhost> probed(ghosts.size());
-    const bool finished =
-        parallel_for(probed.size(), request.threads, std::move(stop),
-                     [&](std::size_t g) { probed[g] = planner.probe(ghosts[g]); });
-    if (!finished) return std::nullopt;
-    std::vector<ErrorShare> shares;
-    double total = 0.0;
-    for (const ProbedGhost& ghost : probed) {
-        const bool drawn = ghost.planned.fate == GhostFate::drawn;
-        shares.push_back({drawn ? ghost.planned.flux_mm2 : 0.0,
-                          ghost.errors.grid_mm2 + ghost.errors.merging_mm2});
-        total += shares.back().flux_mm2;
-    }
-    const std::vector<double> allowance =
-        share_out(shares, granted_share * request.tolerance * total, most_share);
-    for (std::size_t g = 0; g < probed.size(); ++g) probed[g].planned.allowance_mm2 = allowance[g];
-    return probed;
 }
 
 template <int C>

@@ -22,6 +22,10 @@ constexpr double reference_nm = 560.0;
 constexpr double coolest_k = 500.0, hottest_k = 1e6;
 constexpr double shortest_nm = 100.0, longest_nm = 1e5;
 constexpr double band_first_nm = 400.0, band_last_nm = 700.0;
+constexpr std::array<SpectralSample, 2> sodium_lines = {
+    {{588.9950, 2.0 / 3.0}, {589.5924, 1.0 / 3.0}}};
+/// How finely the power of a table is summed.
+constexpr double table_step_nm = 0.5;
 
 /// Planck's law in a wavelength, over its value at 560 nm; `scale_nm` is c2 / T. Written with
 /// falling exponentials so that a cold source does not overflow.
@@ -63,11 +67,25 @@ struct PowerAt {
                 return 1.0;
             case Illuminant::a:
                 return planck(illuminant_a_nm, nm);
+            case Illuminant::led_b3: {
+                const Place at = place(nm, cie::observer_step_nm, cie::led_b3.size());
+                return std::lerp(cie::led_b3[at.index], cie::led_b3[at.index + 1], at.share);
+            }
             case Illuminant::d65:
                 break;
         }
         const Place at = place(nm, cie::d65_step_nm, cie::d65.size());
         return std::lerp(cie::d65[at.index], cie::d65[at.index + 1], at.share) / 100.0;
+    }
+    double operator()(const SodiumLight&) const {
+        for (const SpectralSample& line : sodium_lines)
+            if (nm == line.wavelength_nm) return line.weight;
+        return 0.0;
+    }
+    double operator()(const TabulatedLight& light) const {
+        const bool inside =
+            nm >= light.power.front().wavelength_nm && nm <= light.power.back().wavelength_nm;
+        return inside ? linear_at(light.power, nm) : 0.0;
     }
 };
 
@@ -84,11 +102,15 @@ struct NameOf {
                 return "E";
             case Illuminant::a:
                 return "A";
+            case Illuminant::led_b3:
+                return "LED-B3";
             case Illuminant::d65:
                 break;
         }
         return "D65";
     }
+    std::string operator()(const SodiumLight&) const { return "sodium"; }
+    std::string operator()(const TabulatedLight& light) const { return light.name; }
 };
 
 std::string_view trimmed(std::string_view text) {
@@ -102,8 +124,8 @@ std::string_view trimmed(std::string_view text) {
                  .file = {},
                  .where = "spectrum",
                  .found = fmt::format("'{}'", text),
-                 .expected = "D65, A, E, a temperature such as '5500 K' (500 to 1000000), or a "
-                             "wavelength such as '550 nm'"});
+                 .expected = "D65, A, E, LED-B3, sodium, a temperature such as '5500 K' (500 to "
+                             "1000000), or a wavelength such as '550 nm'"});
 }
 
 double luminance(const Rgb& rgb) { return 0.2126 * rgb.r + 0.7152 * rgb.g + 0.0722 * rgb.b; }
@@ -115,6 +137,38 @@ Rgb balance_of(const Rgb& light) {
     const double y = luminance(light);
     if (std::min({light.r, light.g, light.b}) < least_share * y) return {y, y, y};
     return light;
+}
+
+std::vector<SpectralSample> lines_of(const Spectrum& spectrum) {
+    if (const auto* single = std::get_if<Monochromatic>(&spectrum))
+        return {{single->wavelength_nm, 1.0}};
+    if (std::holds_alternative<SodiumLight>(spectrum))
+        return {sodium_lines.begin(), sodium_lines.end()};
+    return {};
+}
+
+/// Power over a band: of smooth lights at its middle.
+double mean_power(const Spectrum& spectrum, double middle_nm, double width_nm) {
+    if (!std::holds_alternative<TabulatedLight>(spectrum))
+        return relative_power(spectrum, middle_nm);
+    const int steps = std::max(1, static_cast<int>(std::ceil(width_nm / table_step_nm)));
+    double sum = 0.0;
+    for (int k = 0; k < steps; ++k)
+        sum += relative_power(spectrum, middle_nm + width_nm * ((k + 0.5) / steps - 0.5));
+    return sum / steps;
+}
+
+/// Linear Rec.709 of the light itself, of the power that its samples share.
+Rgb own_color(const Spectrum& spectrum) {
+    constexpr int count = 300;
+    Rgb color;
+    for (const SpectralSample& s : sample(spectrum, count)) {
+        const Rgb at = linear_rec709(color_matching(s.wavelength_nm));
+        color.r += s.weight * at.r;
+        color.g += s.weight * at.g;
+        color.b += s.weight * at.b;
+    }
+    return color;
 }
 
 /// Calls visit(nm, shares) every 0.5 nm of the band with the Lagrange polynomials of the nested
@@ -143,6 +197,56 @@ void for_each_wavelength(const std::vector<SpectralSample>& nodes, Visit visit) 
 
 }  // namespace
 
+TabulatedLight tabulated_light(std::string name, SpectralTable power) {
+    const auto refuse_entry = [&](std::size_t k, std::string problem, std::string found,
+                                  std::string expected) {
+        throw Error({.problem = std::move(problem),
+                     .file = {},
+                     .where = fmt::format("entry {}", k + 1),
+                     .found = std::move(found),
+                     .expected = std::move(expected)});
+    };
+    if (power.size() < 2)
+        throw Error({.problem = "a spectrum's table is too short",
+                     .file = {},
+                     .where = {},
+                     .found = fmt::format("{} entries", power.size()),
+                     .expected = "two or more"});
+    for (std::size_t k = 0; k < power.size(); ++k) {
+        const auto [nm, value] = power[k];
+        if (!(nm > 0.0) || !std::isfinite(nm))
+            refuse_entry(k, "not a wavelength", fmt::format("{}", nm), "nm, above 0");
+        if (k > 0 && !(nm > power[k - 1].wavelength_nm))
+            refuse_entry(k, "wavelengths do not rise",
+                         fmt::format("{} nm after {} nm", nm, power[k - 1].wavelength_nm),
+                         "each above the one before");
+        if (!(value >= 0.0) || !std::isfinite(value))
+            refuse_entry(k, "not a spectral power", fmt::format("{}", value), "0 or more");
+    }
+    TabulatedLight light{std::move(name), std::move(power)};
+    const Spectrum spectrum = light;
+    if (!(mean_power(spectrum, 0.5 * (band_first_nm + band_last_nm), band_last_nm - band_first_nm) >
+          0.0))
+        throw Error(
+            {.problem = "a spectrum without power where pictures are made",
+             .file = {},
+             .where = {},
+             .found = fmt::format("power from {} to {} nm", light.power.front().wavelength_nm,
+                                  light.power.back().wavelength_nm),
+             .expected = fmt::format("some between {} and {} nm", band_first_nm, band_last_nm)});
+    return light;
+}
+
+bool is_of_lines(const Spectrum& spectrum) { return !lines_of(spectrum).empty(); }
+
+std::optional<double> line_nm(const Spectrum& spectrum) {
+    const auto lines = lines_of(spectrum);
+    if (lines.empty()) return std::nullopt;
+    double mean = 0.0;
+    for (const SpectralSample& line : lines) mean += line.weight * line.wavelength_nm;
+    return mean;
+}
+
 std::string name(const Spectrum& spectrum) { return std::visit(NameOf{}, spectrum); }
 
 Spectrum parse_spectrum(std::string_view text) {
@@ -154,6 +258,8 @@ Spectrum parse_spectrum(std::string_view text) {
     if (lower == "d65") return StandardLight{Illuminant::d65};
     if (lower == "a") return StandardLight{Illuminant::a};
     if (lower == "e") return StandardLight{Illuminant::e};
+    if (lower == "led-b3" || lower == "led") return StandardLight{Illuminant::led_b3};
+    if (lower == "sodium") return SodiumLight{};
 
     double value = 0.0;
     const auto [end, status] = std::from_chars(lower.data(), lower.data() + lower.size(), value);
@@ -170,8 +276,7 @@ double relative_power(const Spectrum& spectrum, double wavelength_nm) {
 }
 
 std::vector<SpectralSample> nested_samples(const Spectrum& spectrum, int count) {
-    if (const auto* single = std::get_if<Monochromatic>(&spectrum))
-        return {{single->wavelength_nm, 1.0}};
+    if (const auto lines = lines_of(spectrum); !lines.empty()) return lines;
     const int last = count - 1;
     const double middle = 0.5 * (band_first_nm + band_last_nm);
     const double half = 0.5 * (band_last_nm - band_first_nm);
@@ -192,8 +297,7 @@ std::vector<SpectralSample> nested_samples(const Spectrum& spectrum, int count) 
 }
 
 std::vector<SpectralSample> sample(const Spectrum& spectrum, int count) {
-    if (const auto* single = std::get_if<Monochromatic>(&spectrum))
-        return {{single->wavelength_nm, 1.0}};
+    if (const auto lines = lines_of(spectrum); !lines.empty()) return lines;
     if (count < 1)
         throw Error({.problem = "a spectrum needs at least one sample",
                      .file = {},
@@ -205,7 +309,7 @@ std::vector<SpectralSample> sample(const Spectrum& spectrum, int count) {
     const double width_nm = (band_last_nm - band_first_nm) / count;
     for (int i = 0; i < count; ++i) {
         const double nm = band_first_nm + (i + 0.5) * width_nm;
-        samples.push_back({nm, relative_power(spectrum, nm)});
+        samples.push_back({nm, mean_power(spectrum, nm, width_nm)});
         sum += samples.back().weight;
     }
     for (SpectralSample& each : samples) each.weight /= sum;
@@ -229,7 +333,7 @@ Rgb linear_rec709(const Xyz& xyz) {
 }
 
 PassedColor passed_color(const Spectrum& spectrum, const std::vector<double>& shares) {
-    if (std::holds_alternative<Monochromatic>(spectrum))
+    if (is_of_lines(spectrum))
         throw Error("light of one wavelength has no colour that a lens could change");
     const auto nodes = nested_samples(spectrum, static_cast<int>(shares.size()));
     Xyz passed, light;
@@ -271,6 +375,28 @@ std::vector<Rgb> sample_colors(const Spectrum& spectrum,
     white = balance_of(white);
     for (Rgb& color : colors) color = {color.r / white.r, color.g / white.g, color.b / white.b};
     return colors;
+}
+
+Rgb balanced_for(const Spectrum& white, const Spectrum& light) {
+    if (white == light) return {1.0, 1.0, 1.0};
+    // What each light's own colours are divided by, at a luminance of 1. A single wavelength's are
+    // neutral, hence multiplied by its true colour.
+    const auto divisor = [](const Spectrum& of) {
+        const Rgb own = own_color(of);
+        const double y = luminance(own);
+        const Rgb balance = balance_of(own);
+        return Rgb{balance.r / y, balance.g / y, balance.b / y};
+    };
+    Rgb own = divisor(light);
+    if (std::holds_alternative<Monochromatic>(light)) {
+        const Rgb color = own_color(light);
+        const double y = luminance(color);
+        // Beyond what eyes see there is nothing to balance.
+        own = y > 0.0 ? Rgb{color.r / y, color.g / y, color.b / y} : Rgb{1.0, 1.0, 1.0};
+    }
+    const Rgb to =
+        std::holds_alternative<Monochromatic>(white) ? Rgb{1.0, 1.0, 1.0} : divisor(white);
+    return {own.r / to.r, own.g / to.g, own.b / to.b};
 }
 
 }  // namespace ghostlight

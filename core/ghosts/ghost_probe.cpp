@@ -80,6 +80,25 @@ void hold(PupilBox& box, const Range& meridian, bool on_axis) {
     box.u0_mm = -box.u1_mm;
 }
 
+/// A box of a beam nearby with room for what has moved, within the entrance.
+PupilBox widened(const PupilBox& box, const PupilBox& whole) {
+    constexpr double room = 0.15;  ///< of the box's breadth, on either side
+    const double du = 2.0 * room * box.u1_mm, dv = room * (box.v1_mm - box.v0_mm);
+    PupilBox wide{0.0, std::min(box.u1_mm + du, whole.u1_mm), std::max(box.v0_mm - dv, whole.v0_mm),
+                  std::min(box.v1_mm + dv, whole.v1_mm)};
+    wide.u0_mm = -wide.u1_mm;
+    return wide;
+}
+
+/// Whether what may pass reaches a side of the grid beyond which there is more of the entrance, or
+/// nothing passes.
+bool reaches_edge(const MirrorGrid& grid, const Range& i, const Range& j, const PupilBox& whole) {
+    if (!(i.high > 0.0)) return true;
+    return (i.high >= grid.cells / 2 && grid.box.u1_mm < whole.u1_mm) ||
+           (j.low <= 0.0 && grid.box.v0_mm > whole.v0_mm) ||
+           (j.high >= grid.cells && grid.box.v1_mm < whole.v1_mm);
+}
+
 /// By cells, each way of looking in turn; false when none finds anything.
 bool search_cells(const OpticalSystem& system, const TracePath<float>& path, const BeamFrame& frame,
                   std::initializer_list<PupilSearch> ways, GhostProbe& probe) {
@@ -98,15 +117,25 @@ bool search_cells(const OpticalSystem& system, const TracePath<float>& path, con
 
 GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path,
                        const BeamFrame& frame, const PupilBox& entrance, int cells,
-                       ProbeSearch search) {
+                       ProbeSearch search, const PupilBox* nearby) {
     const bool careful = search == ProbeSearch::careful;
     const double stop_radius_mm = system.stop_mask.semi_diameter_mm;
     GhostProbe probe;
     MirrorGrid& grid = probe.grid;
-    grid.box = symmetric(entrance);
-    const double first_cell_mm = 2.0 * grid.box.u1_mm / cells;
-    // The first look is a finer one: beside failing rays a coarse cell says nothing.
-    grid.cells = 2 * cells;
+    const PupilBox whole = symmetric(entrance);
+    const double first_cell_mm = 2.0 * whole.u1_mm / cells;
+    auto begin_with_all = [&] {
+        nearby = nullptr;
+        grid.box = whole;
+        // The first look is a finer one: beside failing rays a coarse cell says nothing.
+        grid.cells = 2 * cells;
+    };
+    if (nearby != nullptr && nearby->area_mm2() > 0.0) {
+        grid.box = widened(*nearby, whole);
+        grid.cells = cells + 2;
+    } else {
+        begin_with_all();
+    }
     const bool on_axis = frame.direction.z == 1.0;
     Range meridian;
     if (careful) {
@@ -133,6 +162,13 @@ GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path
                 j_range.add(j);
                 j_range.add(j + 1.0);
             }
+        if (nearby != nullptr) {
+            if (reaches_edge(grid, i_range, j_range, whole)) {
+                begin_with_all();
+                continue;
+            }
+            nearby = nullptr;
+        }
         if (!(i_range.high > 0.0)) {
             if (!careful) {
                 probe.empty = true;
@@ -156,6 +192,8 @@ GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path
         if (grid.cells > most_cells) break;
     }
     grid.cells = cells;
+    grid.half.keep_cosines = true;
+    const PupilBox found = grid.box;
     trace_mirrored(path, frame, Weights::none, grid);
     probe.rays += grid.half.size();
     probe.passing = passing_nodes(grid, stop_radius_mm);
@@ -167,8 +205,10 @@ GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path
     if (too_few && !careful && !search_cells(system, path, frame, {PupilSearch::quick}, probe))
         return probe;
     hold(grid.box, meridian, on_axis);
-    grid.half.keep_cosines = true;
-    trace_mirrored(path, frame, Weights::polarised, grid);
+    if (grid.box.u1_mm == found.u1_mm && grid.box.v0_mm == found.v0_mm &&
+        grid.box.v1_mm == found.v1_mm)
+        return probe;
+    trace_mirrored(path, frame, Weights::none, grid);
     probe.rays += grid.half.size();
     probe.passing = passing_nodes(grid, stop_radius_mm);
     return probe;

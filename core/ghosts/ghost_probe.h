@@ -8,7 +8,7 @@ namespace ghostlight {
 
 /// Where a path's light enters, and a coarse grid of rays over it.
 struct GhostProbe {
-    MirrorGrid grid;          ///< geometry, polarised and averaged weights, cosines
+    MirrorGrid grid;          ///< geometry and cosines
     std::size_t passing = 0;  ///< nodes of the full grid that pass, the stop taken as round
     std::size_t rays = 0;     ///< traced, the search included
     bool empty = false;       ///< nothing was found
@@ -21,9 +21,11 @@ enum class ProbeSearch { quick, careful };
 /// Looks for the part of the entrance that reaches the sensor along `path`, zooming in on the box
 /// of the cells that may pass until it shrinks no further; where that does not settle (islands,
 /// crescents), by find_pupil's cells. The beam must lie in the y–z plane. Tables are not needed:
-/// a search takes a few hundred rays.
+/// a search takes a few hundred rays. With the box of a similar beam or lens, `nearby`, the zoom
+/// begins there; where what passes reaches the edge of what is looked at, or nothing passes, it
+/// begins anew with the whole entrance.
 GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path,
                        const BeamFrame& frame, const PupilBox& entrance, int cells,
-                       ProbeSearch search = ProbeSearch::careful);
+                       ProbeSearch search = ProbeSearch::careful, const PupilBox* nearby = nullptr);
 
 }  // namespace ghostlight

@@ -73,14 +73,13 @@ class TableBuilder {
     TableBuilder(const Prescription& lens, const GhostTableRequest& request)
         : request_(request),
           frame_(beam_frame(request.light)),
-          monochromatic_(std::holds_alternative<Monochromatic>(request.spectrum)) {
+          monochromatic_(is_of_lines(request.spectrum)) {
         // All that could be asked for, so that threads only read.
         for (int nodes = first_nodes(); nodes <= last_nodes(); nodes = next(nodes))
             for (const SpectralSample& s : nested_samples(request.spectrum, nodes))
                 if (!systems_.contains(s.wavelength_nm))
                     systems_.emplace(s.wavelength_nm, compile(lens, s.wavelength_nm));
-        const auto* line = std::get_if<Monochromatic>(&request.spectrum);
-        reference_ = compile(lens, line ? line->wavelength_nm : d_line_nm);
+        reference_ = compile(lens, line_nm(request.spectrum).value_or(d_line_nm));
         paths_ = two_reflection_ghosts(systems_.begin()->second);
         paths_.insert(paths_.begin(), GhostPath{});
         pixels_ =

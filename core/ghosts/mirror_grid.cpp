@@ -20,6 +20,7 @@ void trace_mirrored(const TracePath<float>& path, const BeamFrame& frame, Weight
         }
     }
     trace_bundle(path, frame, weights, rays);
+    grid.is_polarised = weights == Weights::polarised;
 }
 
 }  // namespace ghostlight

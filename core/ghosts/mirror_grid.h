@@ -15,6 +15,7 @@ struct MirrorGrid {
     PupilBox box;
     int cells = 0;  ///< across, an even number
     Bundle<float> half;
+    bool is_polarised = false;  ///< its weights are there, with polarisation carried
 
     int half_side() const { return cells / 2 + 1; }
     int side() const { return cells + 1; }

@@ -111,8 +111,8 @@ int cells_for_bend(const RayField<float>& probe, double bend_mm, double reach_mm
 
 SplitGrid<float> weighted_grid(const OpticalSystem& system, const TracePath<float>& path,
                                const BeamFrame& frame, const PupilBox& box,
-                               const RayField<float>& probe, int cells, bool exact_weights) {
-    const bool smooth = !exact_weights && roughness(probe) < smooth_enough;
+                               const RayField<float>& probe, int cells) {
+    const bool smooth = roughness(probe) < smooth_enough;
     auto grid = trace_grid(system, path, frame, box, cells, split_cells,
                            smooth ? Weights::none : Weights::polarised);
     if (smooth) fill_weights(probe, grid.base);

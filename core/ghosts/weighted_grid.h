@@ -16,10 +16,9 @@ int cells_for_bend(const RayField<float>& probe, double bend_mm, double reach_mm
 
 /// A grid for pictures and peaks, in single precision: the geometry on cells × cells, the weights
 /// interpolated from the probe where they are smooth enough for it (to about 0.3 % of the flux),
-/// traced everywhere where they are not, or where that is asked for. Films cost several times what
-/// the geometry does.
+/// traced everywhere where they are not. Films cost several times what the geometry does.
 SplitGrid<float> weighted_grid(const OpticalSystem& system, const TracePath<float>& path,
                                const BeamFrame& frame, const PupilBox& box,
-                               const RayField<float>& probe, int cells, bool exact_weights = false);
+                               const RayField<float>& probe, int cells);
 
 }  // namespace ghostlight

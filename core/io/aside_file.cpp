@@ -119,7 +119,8 @@ void write_file_safely(const fs::path& file, std::string_view text) {
 }
 
 void write_lens(const Prescription& lens, const fs::path& file) {
-    write_file_safely(file, lens_to_json(lens));
+    const fs::path folder = file.parent_path().empty() ? "." : file.parent_path();
+    write_file_safely(file, lens_to_json(lens, folder));
 }
 
 }  // namespace ghostlight

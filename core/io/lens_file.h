@@ -25,8 +25,9 @@ LensFile read_lens(const std::filesystem::path& file);
 /// The same from text; `file` only names it in messages.
 LensFile lens_from_json(std::string_view text, const std::string& file);
 
-/// Our own JSON: stable in order and formatting, shortest digits that read back exactly.
-std::string lens_to_json(const Prescription& lens);
+/// Our own JSON: stable in order and formatting, shortest digits that read back exactly. The stop's
+/// image is named relative to the folder the text will be in, where it lies in or below it.
+std::string lens_to_json(const Prescription& lens, const std::filesystem::path& folder = {});
 
 /// Writes aside, then renames: a crash or a full disk never loses the old file. Throws Error.
 void write_lens(const Prescription& lens, const std::filesystem::path& file);

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <filesystem>
 
 #include "core/io/coating_json.h"
 #include "core/io/medium_json.h"
 #include "core/io/sensor_json.h"
+#include "core/io/stop_image_file.h"
 
 namespace ghostlight {
 namespace {
@@ -99,6 +101,50 @@ Published read_published(const JsonAt& object) {
 
 std::string row_range(std::size_t surfaces) { return fmt::format("a row from 1 to {}", surfaces); }
 
+/// Images lie beside the lens that names them.
+StopImage read_image(const JsonAt& named) {
+    const std::string text = named.text("the name of an image file");
+    if (text.empty()) named.refuse("no file's name", "the name of an image file");
+    std::filesystem::path file = std::filesystem::path(named.file()).parent_path() / text;
+    std::error_code unknown;
+    if (const auto absolute = std::filesystem::absolute(file, unknown); !unknown)
+        file = absolute.lexically_normal();
+    try {
+        return read_stop_image(file);
+    } catch (const Error& error) {
+        throw Error({.problem = error.parts().problem + ": " + file.string(),
+                     .file = named.file(),
+                     .where = named.path(),
+                     .found = error.parts().found,
+                     .expected = error.parts().expected});
+    }
+}
+
+StopDirt read_dirt(const JsonAt& object, UnknownFields& unknown) {
+    object.require_object();
+    StopDirt dirt;
+    auto take = [&](std::string_view key, double& value) {
+        value = optional_number(object, key).value_or(value);
+    };
+    take("dust_coverage", dirt.dust_coverage);
+    take("dust_smallest_mm", dirt.dust_smallest_mm);
+    take("dust_largest_mm", dirt.dust_largest_mm);
+    take("scratch_thinnest_mm", dirt.scratch_thinnest_mm);
+    take("scratch_widest_mm", dirt.scratch_widest_mm);
+    take("fingerprint", dirt.fingerprint);
+    if (const auto scratches = object.find("scratches"))
+        dirt.scratches =
+            static_cast<int>(scratches->integer(0, 10'000, "a whole number from 0 to 10000"));
+    if (const auto seed = object.find("seed"))
+        dirt.seed =
+            static_cast<int>(seed->integer(0, 1'000'000'000, "a whole number from 0 to 1e9"));
+    keep_unknown(object,
+                 {"dust_coverage", "dust_smallest_mm", "dust_largest_mm", "scratches",
+                  "scratch_thinnest_mm", "scratch_widest_mm", "fingerprint", "seed"},
+                 unknown, "dirt");
+    return dirt;
+}
+
 Stop read_stop(const JsonAt& object, std::size_t surfaces) {
     object.require_object();
     Stop stop;
@@ -111,10 +157,12 @@ Stop read_stop(const JsonAt& object, std::size_t surfaces) {
         stop.blades = static_cast<int>(blades->integer(0, 1000, "0 (round), or 3 to 1000"));
     stop.rotation_deg = optional_number(object, "rotation_deg").value_or(0.0);
     stop.blade_curvature = optional_number(object, "blade_curvature").value_or(0.0);
-    keep_unknown(
-        object,
-        {"surface", "f_number", "semi_diameter_mm", "blades", "rotation_deg", "blade_curvature"},
-        stop.unknown);
+    keep_unknown(object,
+                 {"surface", "f_number", "semi_diameter_mm", "blades", "rotation_deg",
+                  "blade_curvature", "image", "dirt"},
+                 stop.unknown);
+    if (const auto image = object.find("image")) stop.image = read_image(*image);
+    if (const auto dirt = object.find("dirt")) stop.dirt = read_dirt(*dirt, stop.unknown);
     return stop;
 }
 

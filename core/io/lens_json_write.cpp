@@ -26,13 +26,39 @@ Json published_json(const Published& published) {
     return object;
 }
 
-Json stop_json(const Stop& stop) {
+Json dirt_json(const StopDirt& dirt) {
+    const StopDirt usual;
+    Json object = Json::object();
+    put_unless(object, "dust_coverage", dirt.dust_coverage, usual.dust_coverage);
+    put_unless(object, "dust_smallest_mm", dirt.dust_smallest_mm, usual.dust_smallest_mm);
+    put_unless(object, "dust_largest_mm", dirt.dust_largest_mm, usual.dust_largest_mm);
+    if (dirt.scratches != usual.scratches) object["scratches"] = dirt.scratches;
+    put_unless(object, "scratch_thinnest_mm", dirt.scratch_thinnest_mm, usual.scratch_thinnest_mm);
+    put_unless(object, "scratch_widest_mm", dirt.scratch_widest_mm, usual.scratch_widest_mm);
+    put_unless(object, "fingerprint", dirt.fingerprint, usual.fingerprint);
+    if (dirt.seed != usual.seed) object["seed"] = dirt.seed;
+    return object;
+}
+
+/// Relative to the lens's folder where the image lies in or below it, so that both can be moved.
+std::string image_name(const std::string& file, const std::filesystem::path& folder) {
+    std::error_code unknown;
+    const auto from = std::filesystem::absolute(folder, unknown).lexically_normal();
+    if (folder.empty() || unknown) return file;
+    const std::string relative =
+        std::filesystem::path(file).lexically_relative(from).generic_string();
+    return relative.empty() || relative.starts_with("..") ? file : relative;
+}
+
+Json stop_json(const Stop& stop, const std::filesystem::path& folder) {
     Json object = {{"surface", stop.surface + 1}};
     put(object, "f_number", stop.f_number);
     put(object, "semi_diameter_mm", stop.semi_diameter_mm);
     object["blades"] = stop.blades;
     put_unless(object, "rotation_deg", stop.rotation_deg, 0.0);
     put_unless(object, "blade_curvature", stop.blade_curvature, 0.0);
+    if (stop.image) object["image"] = image_name(stop.image->file, folder);
+    if (stop.dirt != StopDirt{}) object["dirt"] = dirt_json(stop.dirt);
     restore_unknown(object, stop.unknown);
     return object;
 }
@@ -111,13 +137,13 @@ std::string by_lines(const Json& root) {
 
 }  // namespace
 
-std::string lens_to_json(const Prescription& lens) {
+std::string lens_to_json(const Prescription& lens, const std::filesystem::path& folder) {
     Json root = {{"ghostlight_lens", lens_schema_version}, {"name", lens.name}};
     if (!lens.source.empty()) root["source"] = lens.source;
     if (!lens.notes.empty()) root["notes"] = lens.notes;
     if (lens.internal_transmittance) root["internal_transmittance"] = true;
     if (lens.published != Published{}) root["published"] = published_json(lens.published);
-    root["stop"] = stop_json(lens.stop);
+    root["stop"] = stop_json(lens.stop, folder);
     root["sensor"] =
         sensor_json(lens.sensor, lens.surfaces.empty() ? 0.0 : lens.surfaces.back().thickness_mm);
     root["surfaces"] = Json::array();

@@ -107,6 +107,7 @@ OpticalSystem as_listed(const Prescription& lens, double wavelength_nm) {
     system.stop_mask.blades = lens.stop.blades;
     system.stop_mask.rotation_rad = rad_from_deg(lens.stop.rotation_deg);
     system.stop_mask.blade_curvature = lens.stop.blade_curvature;
+    if (lens.stop.image) system.stop_mask.picture = lens.stop.image->picture;
     return system;
 }
 

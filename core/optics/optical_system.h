@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,7 @@ struct StopMask {
     int blades = 0;
     double rotation_rad = 0.0;
     double blade_curvature = 0.0;
+    std::shared_ptr<const StopPicture> picture = nullptr;  ///< clips what the blades leave
 };
 
 /// A lens at one wavelength and in one configuration: flat, immutable, ready to trace.

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 
 #include "core/optics/coating.h"
 #include "core/optics/glass.h"
+#include "core/optics/stop_picture.h"
 
 namespace ghostlight {
 
@@ -53,14 +55,38 @@ struct Surface {
 /// of that end.
 double sag_mm(const Surface& surface, double y_mm);
 
-/// The aperture stop: which row, how far it is closed, and its blades.
+/// An image that is laid over the stop's opening and clips it further.
+struct StopImage {
+    std::string file;  ///< where it was read from: absolute, or as it was given
+    std::shared_ptr<const StopPicture> picture;  ///< never null
+    bool operator==(const StopImage& other) const {
+        return file == other.file && *picture == *other.picture;
+    }
+};
+
+/// What lies on the glass at the stop, scattered by a seed: the same seed, the same dirt.
+struct StopDirt {
+    double dust_coverage = 0.0;  ///< share of the stop's circle that opaque specks cover
+    /// Their diameters, spread evenly over the logarithm.
+    double dust_smallest_mm = 0.02, dust_largest_mm = 0.2;
+    int scratches = 0;  ///< how many, each opaque and 0.1 to 1 times the stop's radius long
+    double scratch_thinnest_mm = 0.005, scratch_widest_mm = 0.02;
+    double fingerprint = 0.0;  ///< share of the light that the ridges of one print take, at most
+    int seed = 1;
+    bool is_clean() const { return dust_coverage <= 0.0 && scratches == 0 && fingerprint <= 0.0; }
+    bool operator==(const StopDirt&) const = default;
+};
+
+/// The aperture stop: which row, how far it is closed, its blades, and what is on it.
 struct Stop {
     std::size_t surface = 0;                 ///< row, from 0
     std::optional<double> f_number;          ///< wins over semi_diameter_mm; capped by the row's
     std::optional<double> semi_diameter_mm;  ///< none = the row's own
     int blades = 0;                          ///< 0 = round, else 3 or more
     double rotation_deg = 0.0;
-    double blade_curvature = 0.0;  ///< 0 = straight edges, 1 = the full circle
+    double blade_curvature = 0.0;         ///< 0 = straight edges, 1 = the full circle
+    std::optional<StopImage> image = {};  ///< turned with rotation_deg, as wide as the stop
+    StopDirt dirt = {};
     UnknownFields unknown;
     bool operator==(const Stop&) const = default;
 };

@@ -11,10 +11,20 @@
 
 namespace ghostlight {
 
-int stop_edges(const StopMask& mask) { return mask.blades < 3 ? 1 : mask.blades; }
+namespace {
+
+int blade_edges(const StopMask& mask) { return mask.blades < 3 ? 1 : mask.blades; }
+
+}  // namespace
+
+int stop_edges(const StopMask& mask) { return blade_edges(mask) + (mask.picture ? 1 : 0); }
 
 double stop_margin(const StopMask& mask, int edge, double u_mm, double v_mm) {
     const double a = mask.semi_diameter_mm;
+    if (edge == blade_edges(mask)) {
+        const double c = std::cos(mask.rotation_rad) / a, s = std::sin(mask.rotation_rad) / a;
+        return mask.picture->distance_at(c * u_mm + s * v_mm, c * v_mm - s * u_mm);
+    }
     if (mask.blades < 3) return 1.0 - (u_mm * u_mm + v_mm * v_mm) / (a * a);
     const double half = std::numbers::pi / mask.blades;
     const double middle = mask.rotation_rad + half * (2 * edge + 1);

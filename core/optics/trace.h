@@ -74,13 +74,14 @@ TracedRay trace_ray(const OpticalSystem& system, const GhostPath& path, const Ra
 /// The ray that crosses the plane z = 0 at (px, py) mm.
 Ray ray_at_entrance(const LightDirection& light, double px_mm, double py_mm);
 
-/// Edges of the stop: one for a round one, else one per blade.
+/// Edges of the stop: one for a round one, else one per blade; one more for its image.
 int stop_edges(const StopMask& mask);
 
 /// Positive inside one edge of the stop, 1 at most, smooth: 1 − r²/a² for a round stop of
 /// semi-diameter a; for a blade the distance from its edge over a. A polygon's corners lie on the
 /// circle of the semi-diameter, the first at the rotation angle from +x; its edges are arcs of
-/// radius semi-diameter / blade_curvature.
+/// radius semi-diameter / blade_curvature. The last edge of a stop with an image is the image's,
+/// turned by the rotation angle: the distance over a.
 double stop_margin(const StopMask& mask, int edge, double u_mm, double v_mm);
 
 /// True where the stop is open.

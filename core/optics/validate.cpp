@@ -232,6 +232,29 @@ void check_surface(const Surface& surface, const std::string& where) {
     std::visit(CheckCoating{where + ".coating"}, surface.coating);
 }
 
+void check_dirt(const StopDirt& dirt) {
+    constexpr double most_coverage = 0.5;  // beyond this specks lie on specks, and it is no dust
+    constexpr int most_scratches = 10'000;
+    require(dirt.dust_coverage >= 0.0 && dirt.dust_coverage <= most_coverage,
+            "stop.dirt.dust_coverage", dirt.dust_coverage, "not a usable coverage",
+            "a share of the stop from 0 to 0.5");
+    require_length("stop.dirt.dust_smallest_mm", dirt.dust_smallest_mm);
+    require_length("stop.dirt.dust_largest_mm", dirt.dust_largest_mm);
+    require(dirt.dust_smallest_mm <= dirt.dust_largest_mm, "stop.dirt.dust_smallest_mm",
+            dirt.dust_smallest_mm, "the smallest speck is larger than the largest",
+            fmt::format("at most {} mm", dirt.dust_largest_mm));
+    if (dirt.scratches < 0 || dirt.scratches > most_scratches)
+        refuse("stop.dirt.scratches", "not a usable number of scratches",
+               fmt::format("{}", dirt.scratches), "0 to 10000");
+    require_length("stop.dirt.scratch_thinnest_mm", dirt.scratch_thinnest_mm);
+    require_length("stop.dirt.scratch_widest_mm", dirt.scratch_widest_mm);
+    require(dirt.scratch_thinnest_mm <= dirt.scratch_widest_mm, "stop.dirt.scratch_thinnest_mm",
+            dirt.scratch_thinnest_mm, "the thinnest scratch is wider than the widest",
+            fmt::format("at most {} mm", dirt.scratch_widest_mm));
+    require(dirt.fingerprint >= 0.0 && dirt.fingerprint <= 1.0, "stop.dirt.fingerprint",
+            dirt.fingerprint, "not a usable share", "0 to 1");
+}
+
 void check_stop(const Stop& stop, std::size_t surfaces) {
     if (stop.surface >= surfaces)
         refuse("stop.surface", "the stop's row does not exist", fmt::format("{}", stop.surface + 1),
@@ -245,6 +268,11 @@ void check_stop(const Stop& stop, std::size_t surfaces) {
     require(stop.blade_curvature >= 0.0 && stop.blade_curvature <= 1.0, "stop.blade_curvature",
             stop.blade_curvature, "not a usable blade curvature",
             "0 (straight edges) to 1 (round)");
+    if (stop.image && stop.image->picture->mean_over_circle() <= 0.0)
+        refuse("stop.image", "the image lets no light through the stop",
+               fmt::format("'{}'", stop.image->file),
+               "an image that is white somewhere within the circle that fits it");
+    check_dirt(stop.dirt);
 }
 
 void check_configurations(const Prescription& lens) {

@@ -1,14 +1,12 @@
 #include "render/gl_flare/engine_choice.h"
 
-#include <epoxy/gl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
+#include "core/elapsed.h"
 #include "core/error.h"
 #include "core/flare/planned_flare.h"
-#include "render/gl_flare/gl_flare.h"
 
 namespace ghostlight {
 namespace {
@@ -24,14 +22,6 @@ constexpr std::size_t first_ghosts = 8, growth = 4;
 /// budget to show that it stays so.
 constexpr double to_be_sure = 3.0;
 
-using Clock = std::chrono::steady_clock;
-template <class Work>
-double ms_of(Work work) {
-    const auto began = Clock::now();
-    work();
-    return std::chrono::duration<double, std::milli>(Clock::now() - began).count();
-}
-
 /// So many ghosts from all along the list.
 std::vector<GhostPath> some_of(const std::vector<GhostPath>& ghosts, std::size_t count) {
     std::vector<GhostPath> some;
@@ -40,6 +30,24 @@ std::vector<GhostPath> some_of(const std::vector<GhostPath>& ghosts, std::size_t
 }
 
 }  // namespace
+
+const char* engine_name(FlareEngine engine) {
+    switch (engine) {
+        case FlareEngine::cpu:
+            return "cpu";
+        case FlareEngine::gl:
+            return "opengl";
+        case FlareEngine::automatic:
+            break;
+    }
+    return "automatic";
+}
+
+std::optional<FlareEngine> parse_engine(std::string_view name) {
+    for (const FlareEngine engine : {FlareEngine::automatic, FlareEngine::cpu, FlareEngine::gl})
+        if (name == engine_name(engine)) return engine;
+    return std::nullopt;
+}
 
 FlareEngineChoice choose_engine(FlareEngine wish, const EngineTimes& times) {
     if (wish == FlareEngine::cpu) return {FlareEngine::cpu, "CPU: as asked"};
@@ -56,43 +64,42 @@ FlareEngineChoice choose_engine(FlareEngine wish, const EngineTimes& times) {
                         gl ? "OpenGL" : "CPU", *times.cpu_ms, *times.gl_ms)};
 }
 
-EngineTimes time_engines(const FlareScene& scene, const FlareRequest& request, GlFlare* gl,
-                         const std::string& gl_refusal, double budget_ms) {
+std::optional<EngineTimes> time_engines(const FlareScene& scene, const FlareRequest& request,
+                                        const DrawPlanned& gl, const std::string& gl_refusal,
+                                        double budget_ms, std::stop_token stop) {
     EngineTimes times;
     times.gl_refusal = gl_refusal;
     const auto began = Clock::now();
-    const auto spent_ms = [&] {
-        return std::chrono::duration<double, std::milli>(Clock::now() - began).count();
-    };
     FlareRequest trial = request;
     trial.width_px = std::min(trial_width_px, request.width_px);
     trial.tolerance = std::max(trial_tolerance, request.tolerance);
     trial.highlighted.clear();
-    const auto draw_cpu = [&] { return ms_of([&] { render_planned(scene, trial); }); };
-    const auto draw_gl = [&] {
-        return ms_of([&] {
-            gl->draw_to_texture(scene, trial);
-            glFinish();
-        });
+    const auto ms_of = [&](const DrawPlanned& draw) {
+        const auto started = Clock::now();
+        draw(scene, trial, stop);
+        return ms_since(started);
     };
     try {
         for (std::size_t count = first_ghosts;; count *= growth) {
             trial.only = some_of(scene.ghosts, std::min(count, scene.ghosts.size()));
-            times.cpu_ms = draw_cpu();
-            if (count == first_ghosts) times.cpu_ms = std::min(*times.cpu_ms, draw_cpu());
-            if (gl != nullptr) {
-                if (count == first_ghosts) draw_gl();  // drivers finish their shaders in it
-                times.gl_ms = draw_gl();
+            times.cpu_ms = ms_of(render_planned);
+            if (count == first_ghosts)
+                times.cpu_ms = std::min(*times.cpu_ms, ms_of(render_planned));
+            if (gl) {
+                if (count == first_ghosts) ms_of(gl);  // drivers finish their shaders in it
+                times.gl_ms = ms_of(gl);
             }
+            if (stop.stop_requested()) return std::nullopt;
             if (count >= scene.ghosts.size()) break;
             const bool ahead = times.gl_ms && *times.gl_ms < *times.cpu_ms;
-            if (ahead ? spent_ms() > to_be_sure * budget_ms : spent_ms() * (1 + growth) > budget_ms)
+            if (ahead ? ms_since(began) > to_be_sure * budget_ms
+                      : ms_since(began) * (1 + growth) > budget_ms)
                 break;
         }
     } catch (const Error& error) {  // the CPU's engine throws none
         times.gl_ms.reset();
         times.gl_refusal = error.what();
-        if (!times.cpu_ms) times.cpu_ms = draw_cpu();
+        if (!times.cpu_ms) times.cpu_ms = ms_of(render_planned);
     }
     return times;
 }

@@ -69,6 +69,12 @@ void dispatch(std::size_t groups) {
 /// The plan traces half of each beam, turned into the y–z plane, about which the rectangle of a
 /// sensor that reflects has to be symmetric (render_flare() takes the method `uniform` then).
 void require_planned(const FlareScene& scene, const FlareRequest& request) {
+    if (scene.system().stop_mask.picture)
+        throw Error({.problem = "an image in the stop is not drawn in OpenGL",
+                     .file = {},
+                     .where = "stop.image",
+                     .found = {},
+                     .expected = "a stop of blades"});
     if (!scene.system().sensor_face ||
         std::abs(std::fmod(request.light.azimuth_deg, 180.0)) == 90.0)
         return;

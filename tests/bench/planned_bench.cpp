@@ -74,6 +74,7 @@ void print_error(const std::string& name, const Prescription& lens) {
     request.light.field_deg = middle_field_deg(lens);
     FlareRequest dense = request;
     dense.method = FlareMethod::reference;
+    dense.tolerance = 0.002;
     const FlareImage truth = render_flare(lens, dense).value();
     const FlareScene scene = flare_scene(lens, request.spectrum);
     auto best = [](auto&& render) {

@@ -8,44 +8,15 @@
 
 #include "core/ghosts/ghost_table.h"
 #include "tests/bench/bench_support.h"
+#include "tests/bench/made_lenses.h"
 
 namespace ghostlight::bench {
 namespace {
 
 constexpr int surface_counts[] = {10, 20, 40, 80};
 constexpr double tolerance = 0.01;
-constexpr double field_deg = 3.0;
 constexpr unsigned threads = 1;
 constexpr auto zoom_name = "zoom of 20 elements";
-
-/// A train of weak lenses, positive and negative by turns, with the stop in the middle: light gets
-/// through however long it is, and every surface reflects.
-Prescription train(int surfaces) {
-    Prescription lens;
-    lens.name = fmt::format("train of {} surfaces", surfaces);
-    for (int k = 0; k < surfaces / 2; ++k) {
-        const double radius_mm = (k % 2 == 0 ? 1.0 : -1.0) * (400.0 + 10.0 * k);
-        Surface front, back;
-        front.curve = Radius{radius_mm};
-        front.thickness_mm = 2.0;
-        front.medium_after = {"", ModelGlass{k % 2 == 0 ? 1.6 : 1.7, k % 2 == 0 ? 60.0 : 30.0}};
-        front.semi_diameter_mm = back.semi_diameter_mm = 12.0;
-        front.coating = back.coating = QuarterWave{};
-        back.curve = Radius{-radius_mm};
-        back.thickness_mm = 1.0;
-        lens.surfaces.push_back(front);
-        lens.surfaces.push_back(back);
-        if (k == surfaces / 4) {
-            Surface stop;
-            stop.thickness_mm = 1.0;
-            stop.semi_diameter_mm = 8.0;
-            lens.stop.surface = lens.surfaces.size();
-            lens.surfaces.push_back(stop);
-        }
-    }
-    lens.surfaces.back().thickness_mm = 60.0;
-    return lens;
-}
 
 std::string benchmark_name(int surfaces) { return fmt::format("train/{} surfaces", surfaces); }
 
@@ -77,7 +48,7 @@ void declare_one(const std::string& name, Prescription lens, double field) {
 
 void declare() {
     for (const int surfaces : surface_counts)
-        declare_one(benchmark_name(surfaces), train(surfaces), field_deg);
+        declare_one(benchmark_name(surfaces), train(surfaces), train_field_deg);
     const Prescription zoom = lens_named("canon_zoom_70_200_f2.8.json", "tele");
     declare_one(zoom_name, zoom, middle_field_deg(zoom));
 }

@@ -16,6 +16,7 @@
 #include "core/optics/optical_system.h"
 #include "tests/bench/bench_support.h"
 #include "tests/bench/scalar_trace.h"
+#include "tests/bench/supplement_trace.h"
 
 namespace ghostlight::bench {
 namespace {
@@ -46,6 +47,7 @@ constexpr WeightCase weight_cases[] = {
 
 constexpr const char* scalar = "scalar double";
 constexpr const char* scalar_fused = "scalar double, AVX2 flags";
+constexpr const char* supplement = "supplement 2011";
 constexpr const char* simd_double = "SIMD double";
 constexpr const char* simd_float = "SIMD float";
 
@@ -137,6 +139,28 @@ void run_scalar(benchmark::State& state, const Scene& scene, Weights weights, Tr
     report(state, work.interactions());
 }
 
+void run_supplement(benchmark::State& state, const Scene& scene) {
+    constexpr double rounding_mm = 1e-6;
+    Work<double> work(scene);
+    trace_bundle(work.path, scene.frame, Weights::none, work.bundle);
+    const Bundle<double> ours = work.bundle;
+    const SupplementPath path = supplement_path(scene.system, scene.ghost);
+    trace_supplement(path, scene.frame, work.bundle);
+    for (std::size_t i = 0; i < ours.size(); ++i)
+        if (ours.margin[i] > 1e-6 && ours.r_rel[i] < 1.0 &&
+            !(std::hypot(ours.x_mm[i] - work.bundle.x_mm[i], ours.y_mm[i] - work.bundle.y_mm[i]) <
+              rounding_mm)) {
+            state.SkipWithError("the supplement's rays land elsewhere");
+            return;
+        }
+    for (auto unused : state) {
+        (void)unused;
+        trace_supplement(path, scene.frame, work.bundle);
+        benchmark::ClobberMemory();
+    }
+    report(state, work.interactions());
+}
+
 void declare() {
     for (const LensCase& lens : lens_cases)
         for (const WeightCase& weight : weight_cases) {
@@ -154,6 +178,8 @@ void declare() {
                     run_scalar(state, *scene, weights, scalar_v3::trace_rays);
                 });
 #endif
+            if (weights == Weights::average && weight.coated)
+                add(supplement, [=](benchmark::State& state) { run_supplement(state, *scene); });
             add(simd_double,
                 [=](benchmark::State& state) { run_lanes<double>(state, *scene, weights); });
             add(simd_float,
@@ -177,6 +203,20 @@ void print_summary(const Results& results) {
                        number(of(scalar_fused) / one, 2), number(of(simd_double) / one, 2),
                        number(of(simd_float) / one, 2), number(peak / of(simd_float), 0));
         }
+    fmt::print(
+        "\nAgainst the algorithm of the 2011 supplement, scalar double, coatings at its two "
+        "reflections = 1\n");
+    for (const LensCase& lens : lens_cases) {
+        const double one = results.median(benchmark_name(lens, weight_cases[3], supplement), rate);
+        fmt::print("{:<8}{:>8} M/s", lens.name, number(1e-6 * one, 1));
+        for (const WeightCase& weight : weight_cases)
+            fmt::print(
+                "   {} {}", weight.name,
+                number(results.median(benchmark_name(lens, weight, simd_float), rate) / one, 1));
+        const double geometry =
+            results.median(benchmark_name(lens, weight_cases[0], simd_float), rate);
+        fmt::print("   geometry, of the peak at 50 flop {}\n", number(50.0 * geometry / peak, 2));
+    }
     fmt::print("flop/rs: operations of the float peak in the time of one interaction\n");
 }
 

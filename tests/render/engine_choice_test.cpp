@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "render/gl_flare/gl_flare.h"
-#include "render/offscreen.h"
 #include "tests/support/optics_kit.h"
 
 namespace ghostlight {
@@ -37,14 +35,13 @@ TEST(EngineChoice, TimesBothOnTheScene) {
     FlareRequest request;
     request.light.field_deg = 9.0;
     const FlareScene scene = flare_scene(bundled("heliar_tronnier_100"), request.spectrum);
-    OffscreenContext context;
-    GlFlare gl;
-    const EngineTimes times = time_engines(scene, request, &gl);
+    const GlEngine gl = offscreen_gl_engine();
+    const EngineTimes times = time_engines(scene, request, gl.draw).value();
     ASSERT_TRUE(times.cpu_ms && times.gl_ms);
     EXPECT_GT(*times.cpu_ms, 0.0);
     EXPECT_GT(*times.gl_ms, 0.0);
 
-    const EngineTimes without = time_engines(scene, request, nullptr, "no OpenGL here");
+    const EngineTimes without = time_engines(scene, request, {}, "no OpenGL here").value();
     EXPECT_TRUE(without.cpu_ms.has_value());
     EXPECT_FALSE(without.gl_ms.has_value());
     EXPECT_EQ(without.gl_refusal, "no OpenGL here");
@@ -55,9 +52,8 @@ TEST(EngineChoice, AnEngineThatFailsInItsTrialIsNotTaken) {
     scene.ghosts = {{{5, 3, 4, 2}}};  // more reflections than it can follow
     FlareRequest request;
     request.light.field_deg = 1.0;
-    OffscreenContext context;
-    GlFlare gl;
-    const EngineTimes times = time_engines(scene, request, &gl);
+    const GlEngine gl = offscreen_gl_engine();
+    const EngineTimes times = time_engines(scene, request, gl.draw).value();
     EXPECT_FALSE(times.gl_ms.has_value());
     EXPECT_NE(times.gl_refusal.find("reflections"), std::string::npos) << times.gl_refusal;
     EXPECT_EQ(choose_engine(FlareEngine::automatic, times).engine, FlareEngine::cpu);

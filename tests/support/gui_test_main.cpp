@@ -22,5 +22,7 @@ int main(int argc, char** argv) {
     QApplication application(argc, argv);
     QApplication::setApplicationName("ghostlight-tests");
     QApplication::setOrganizationName("ghostlight-tests");
+    // A trial of the engines in every window would cost more than all else that is tested.
+    QSettings().setValue("flare_engine", "cpu");
     return RUN_ALL_TESTS();
 }

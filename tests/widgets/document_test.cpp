@@ -58,18 +58,18 @@ TEST_F(DocumentTest, EveryChangeHasARevision) {
 
 TEST_F(DocumentTest, TheLightIsUndoneButIsNoEdit) {
     Scene scene = document.scene();
-    scene.light.field_deg = 5.0;
+    scene.light().direction.field_deg = 5.0;
     document.edit_scene(scene, "move the light", "light");
     EXPECT_FALSE(document.is_modified());
     document.history().undo();
-    EXPECT_NE(document.scene().light.field_deg, 5.0);
+    EXPECT_NE(document.scene().light().direction.field_deg, 5.0);
 }
 
 TEST_F(DocumentTest, SavesLensAndSceneAndReadsThemBack) {
     set_radius(43.0);
     Scene scene = document.scene();
-    scene.light = {7.25, 30.0};
-    scene.spectrum = Monochromatic{550.0};
+    scene.light().direction = {7.25, 30.0};
+    scene.light().spectrum = Monochromatic{550.0};
     scene.tolerance = 0.02;
     document.edit_scene(scene, "change light");
     const std::filesystem::path file = folder.filePath("lens.json").toStdString();

@@ -66,7 +66,7 @@ struct JobsTest : testing::Test {
         ASSERT_FALSE(document.open(test::tessar()));
         Scene scene = document.scene();
         scene.tolerance = 0.5;
-        scene.spectrum = Monochromatic{};
+        scene.light().spectrum = Monochromatic{};
         document.edit_scene(scene, "change tolerance");
     }
     bool settle() {
@@ -89,14 +89,32 @@ TEST_F(JobsTest, CoarseThenFineThenTheTable) {
     EXPECT_TRUE(pictures.back().is_final);
     EXPECT_EQ(pictures.back().revision, document.revision());
     ASSERT_EQ(tables.size(), 1U);
-    EXPECT_EQ(tables.front()->light, document.scene().light);
+    EXPECT_EQ(tables.front()->light, document.scene().light().direction);
+}
+
+TEST_F(JobsTest, ALensJustOpenedIsSeenToFirstOrderAtOnce) {
+    ASSERT_FALSE(document.open(test::tessar()));
+    ASSERT_TRUE(settle());
+    ASSERT_GE(pictures.size(), 3U);
+    EXPECT_TRUE(pictures.front().is_first_look);
+    EXPECT_FALSE(pictures.front().is_final);
+    EXPECT_GT(pictures.front().image->flux_on_sensor_mm2, 0.0);
+    for (std::size_t k = 1; k < pictures.size(); ++k) {
+        EXPECT_FALSE(pictures[k].is_first_look);
+    }
+    pictures.clear();
+    Scene scene = document.scene();
+    scene.light().direction.field_deg += 1.0;
+    document.edit_scene(scene, "move the light", "light");
+    ASSERT_TRUE(settle());
+    EXPECT_FALSE(pictures.front().is_first_look) << "only of a lens just opened";
 }
 
 TEST_F(JobsTest, ManyChangesEndInOnePictureAndOneTable) {
     open();
     for (int k = 0; k < 30; ++k) {
         Scene scene = document.scene();
-        scene.light.field_deg = 2.0 + 0.1 * k;
+        scene.light().direction.field_deg = 2.0 + 0.1 * k;
         document.edit_scene(scene, "move the light", "light");
         QTest::qWait(2);
     }
@@ -107,7 +125,7 @@ TEST_F(JobsTest, ManyChangesEndInOnePictureAndOneTable) {
     EXPECT_EQ(pictures.back().revision, document.revision());
     EXPECT_TRUE(pictures.back().is_final);
     ASSERT_FALSE(tables.empty());
-    EXPECT_EQ(tables.back()->light, document.scene().light);
+    EXPECT_EQ(tables.back()->light, document.scene().light().direction);
     for (std::size_t k = 1; k < pictures.size(); ++k) {
         EXPECT_GE(pictures[k].revision, pictures[k - 1].revision) << "never back in time";
     }

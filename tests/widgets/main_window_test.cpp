@@ -182,7 +182,7 @@ TEST(MainWindow, SelectedGhostsAreSelectedEverywhere) {
     EXPECT_NE(window.layout_panel().grab_view(), layout);
     // The ghost stays selected while the light and with it the order changes.
     Scene scene = window.document().scene();
-    scene.light.field_deg = 3.0;
+    scene.light().direction.field_deg = 3.0;
     window.document().edit_scene(scene, "move the light");
     ASSERT_TRUE(shown.settle());
     ASSERT_EQ(window.selection().ghosts().size(), 1U);
@@ -196,17 +196,17 @@ TEST(MainWindow, DraggingTheLightMovesItInOneStep) {
     OpenWindow shown(test::tessar());
     MainWindow& window = shown.window;
     ASSERT_TRUE(shown.settle());
-    const LightDirection before = window.document().scene().light;
+    const LightDirection before = window.document().scene().light().direction;
     const int steps = window.document().history().count();
     QWidget& view = *window.flare_panel().view();
     drag(view, view.rect().center(), view.rect().center() + QPoint(60, 40));
-    EXPECT_NE(window.document().scene().light, before);
+    EXPECT_NE(window.document().scene().light().direction, before);
     EXPECT_EQ(window.document().history().count(), steps + 1);
     ASSERT_TRUE(shown.settle());
     EXPECT_EQ(window.picture()->revision, window.document().revision());
     EXPECT_FALSE(window.document().is_modified());
     window.actions()["edit.undo"].trigger();
-    EXPECT_EQ(window.document().scene().light, before);
+    EXPECT_EQ(window.document().scene().light().direction, before);
 }
 
 TEST(MainWindow, TheWayFromKeyToPictureIsTimed) {
@@ -229,16 +229,16 @@ TEST(MainWindow, SceneBarEditsAndRefusals) {
         QTest::keyClick(&field.editor(), Qt::Key_Return);
     };
     enter(bar.field(), "7.5");
-    EXPECT_EQ(window.document().scene().light.field_deg, 7.5);
+    EXPECT_EQ(window.document().scene().light().direction.field_deg, 7.5);
     enter(bar.field(), "95");
-    EXPECT_EQ(window.document().scene().light.field_deg, 7.5);
+    EXPECT_EQ(window.document().scene().light().direction.field_deg, 7.5);
     EXPECT_FALSE(window.banner().text().isEmpty());
     enter(bar.field(), "8");
     EXPECT_EQ(window.banner().text(), "");
     enter(bar.f_number(), "5.6");
     EXPECT_EQ(window.document().lens().stop.f_number, 5.6);
     Q_EMIT bar.spectrum().entered("550 nm");
-    EXPECT_EQ(window.document().scene().spectrum, Spectrum(Monochromatic{550.0}));
+    EXPECT_EQ(window.document().scene().light().spectrum, Spectrum(Monochromatic{550.0}));
     Q_EMIT bar.spectrum().entered("green");
     EXPECT_TRUE(window.banner().text().contains("green"));
 }

@@ -22,7 +22,9 @@ inline std::filesystem::path tessar() { return bundled("tessar_brendel_100_f2.8.
 /// A shown window that keeps nothing, with a ghost table of one wavelength and a loose tolerance:
 /// these tests are about the window.
 struct OpenWindow {
-    explicit OpenWindow(const std::filesystem::path& lens = {}) {
+    explicit OpenWindow(const std::filesystem::path& lens = {},
+                        MakeGlEngine make_gl = offscreen_gl_engine)
+        : window(false, std::move(make_gl)) {
         window.resize(1400, 860);
         window.show();
         EXPECT_TRUE(QTest::qWaitForWindowExposed(&window));
@@ -34,12 +36,12 @@ struct OpenWindow {
     void loosen() {
         Scene scene = window.document().scene();
         scene.tolerance = 0.5;
-        scene.spectrum = Monochromatic{};
+        scene.light().spectrum = Monochromatic{};
         window.document().edit_scene(scene, "make the table cheap", "tolerance");
     }
     bool settle() { return wait_until_settled(window, patience_ms); }
 
-    MainWindow window{false};
+    MainWindow window;
 };
 
 }  // namespace ghostlight::test

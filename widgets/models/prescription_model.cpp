@@ -96,11 +96,12 @@ int PrescriptionModel::columnCount(const QModelIndex& parent) const {
 void PrescriptionModel::follow_document() {
     const Prescription& lens = document_.lens();
     const Scene& scene = document_.scene();
-    if (lens == shown_ && scene.configuration == configuration_ && scene.spectrum == spectrum_) {
+    if (lens == shown_ && scene.configuration == configuration_ &&
+        scene.light().spectrum == spectrum_) {
         return;  // the light moves, and nothing here changes
     }
     configuration_ = scene.configuration;
-    spectrum_ = scene.spectrum;
+    spectrum_ = scene.light().spectrum;
     // Every row's number changes below an insertion, so that no row is just where it was, moved.
     const bool other_rows = shown_.surfaces.size() != lens.surfaces.size();
     if (other_rows) {

@@ -81,6 +81,8 @@ void FlarePanel::set_dimmed(bool stale) { header_->set_dimmed(stale); }
 
 double FlarePanel::last_upload_ms() const { return view_->last_upload_ms(); }
 
+void FlarePanel::set_strip(QWidget* strip) { layout()->addWidget(strip); }
+
 QImage FlarePanel::grab_view() { return view_->grab_view(); }
 
 void FlarePanel::show_state() {

@@ -40,6 +40,8 @@ class FlarePanel : public QWidget {
     /// Time that the last picture took from memory to the graphics card, ms.
     double last_upload_ms() const;
     FlareView* view() const { return view_; }
+    /// Puts a strip of controls below the view.
+    void set_strip(QWidget* strip);
     /// What the view shows, in device pixels; null if it cannot be drawn.
     QImage grab_view();
 

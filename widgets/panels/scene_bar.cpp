@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/io/spectrum_csv.h"
 #include "core/optics/paraxial.h"
 #include "core/units.h"
 #include "widgets/document.h"
@@ -51,8 +52,8 @@ SceneBar::SceneBar(Document& document, QWidget* parent)
                                "Direction of the light about the axis; 90° is the plane of the "
                                "layout's drawing.")),
       spectrum_(new ChoiceField("Spectrum",
-                                "Of the light: D65, A, E, a black body (5500 K) or one wavelength "
-                                "(587.5618 nm)",
+                                "Of the light: D65, A, E, LED-B3, sodium, a black body (5500 K), "
+                                "one wavelength (587.5618 nm) or a table (lamp.csv)",
                                 true)),
       tolerance_(new NumberField("Table within", " %",
                                  "Each flux of the ghost table is refined until its own error "
@@ -84,7 +85,8 @@ SceneBar::SceneBar(Document& document, QWidget* parent)
     row->addStretch(1);
     addWidget(content);
 
-    spectrum_->set_choices({"D65", "A", "E", "5500 K", "3200 K", "587.5618 nm", "550 nm"});
+    spectrum_->set_choices(
+        {"D65", "A", "E", "LED-B3", "sodium", "5500 K", "3200 K", "587.5618 nm", "550 nm"});
     connect_fields();
     connect(&document_, &Document::changed, this, &SceneBar::follow_document);
     connect(&document_, &Document::file_changed, this, &SceneBar::show_title);
@@ -105,13 +107,13 @@ void SceneBar::attempt(Field& field, const Edit& edit) {
 
 void SceneBar::set_field_deg(double field_deg) {
     Scene scene = document_.scene();
-    scene.light.field_deg = std::clamp(field_deg, -most_field_deg, most_field_deg);
+    scene.light().direction.field_deg = std::clamp(field_deg, -most_field_deg, most_field_deg);
     document_.edit_scene(scene, "change field angle", "light");
 }
 
 void SceneBar::set_azimuth_deg(double azimuth_deg) {
     Scene scene = document_.scene();
-    scene.light.azimuth_deg = wrapped_azimuth(azimuth_deg);
+    scene.light().direction.azimuth_deg = wrapped_azimuth(azimuth_deg);
     document_.edit_scene(scene, "change azimuth", "light");
 }
 
@@ -135,13 +137,13 @@ void SceneBar::connect_fields() {
         });
     });
     connect(field_, &NumberField::stepped, this, [this](int steps) {
-        set_field_deg(document_.scene().light.field_deg + steps * field_step_deg);
+        set_field_deg(document_.scene().light().direction.field_deg + steps * field_step_deg);
     });
     connect(azimuth_, &NumberField::entered, this, [this](const QString& text) {
         attempt(*azimuth_, [&] { set_azimuth_deg(read_number(text, "an angle in degrees")); });
     });
     connect(azimuth_, &NumberField::stepped, this, [this](int steps) {
-        set_azimuth_deg(document_.scene().light.azimuth_deg + steps * azimuth_step_deg);
+        set_azimuth_deg(document_.scene().light().direction.azimuth_deg + steps * azimuth_step_deg);
     });
     connect(f_number_, &NumberField::entered, this, [this](const QString& text) {
         attempt(*f_number_, [&] { set_f_number(read_positive(text, "an f-number above 0")); });
@@ -159,7 +161,11 @@ void SceneBar::connect_fields() {
     connect(spectrum_, &ChoiceField::entered, this, [this](const QString& text) {
         attempt(*spectrum_, [&] {
             Scene scene = document_.scene();
-            scene.spectrum = parse_spectrum(text.trimmed().toStdString());
+            const std::string wanted = text.trimmed().toStdString();
+            // A table is known by its name alone once it has been read.
+            if (wanted != name(scene.light().spectrum)) {
+                scene.light().spectrum = spectrum_by_name(wanted);
+            }
             document_.edit_scene(scene, "change spectrum", "spectrum");
         });
     });
@@ -209,9 +215,9 @@ void SceneBar::follow_document() {
     configuration_->set_choices(names);
     configuration_->set_text(
         scene.configuration.empty() ? as_listed : QString::fromStdString(scene.configuration));
-    field_->set_text(angle_text(scene.light.field_deg));
-    azimuth_->set_text(angle_text(scene.light.azimuth_deg));
-    spectrum_->set_text(QString::fromStdString(name(scene.spectrum)));
+    field_->set_text(angle_text(scene.light().direction.field_deg));
+    azimuth_->set_text(angle_text(scene.light().direction.azimuth_deg));
+    spectrum_->set_text(QString::fromStdString(name(scene.light().spectrum)));
     const auto percent = [](double share) { return shortest(std::round(share * 1e7) / 1e5); };
     tolerance_->set_text(percent(scene.tolerance));
     flare_tolerance_->set_text(percent(scene.flare_tolerance));

@@ -24,6 +24,7 @@ StatusLine::StatusLine(Document& document, QWidget* parent)
       table_(new TabularLabel),
       timing_(new TabularLabel),
       picture_(new TabularLabel),
+      proof_(new TabularLabel),
       message_(new TabularLabel),
       engine_(new TabularLabel),
       saved_(new TabularLabel) {
@@ -35,21 +36,19 @@ StatusLine::StatusLine(Document& document, QWidget* parent)
     row->addWidget(table_);
     row->addWidget(timing_);
     row->addWidget(picture_);
+    row->addWidget(proof_);
     row->addWidget(message_);
     row->addStretch();
     row->addWidget(engine_);
     row->addWidget(saved_);
     timing_->setToolTip("From the last change to its first picture on screen");
-    const unsigned threads = default_thread_count();
-    engine_->set_text(QStringLiteral("CPU %1 · %2 thread%3")
-                          .arg(instruction_set_name())
-                          .arg(threads)
-                          .arg(threads == 1 ? "" : "s"));
+    show_engine({});
     connect(&document_, &Document::changed, this, &StatusLine::follow_document);
     connect(&document_, &Document::opened, this, [this] {
         table_->set_text({});
         timing_->set_text({});
         picture_->set_text({});
+        clear_proof();
     });
     connect(&document_, &Document::file_changed, this, &StatusLine::show_saved);
     show_saved();
@@ -73,7 +72,13 @@ void StatusLine::show_progress(double share) {
 }
 
 void StatusLine::show_picture(const FlarePicture& picture, double upload_ms) {
-    show_plan(picture.image->plan);
+    if (picture.is_first_look) {
+        picture_->set_text("first look, *paraxial*");
+        picture_->setToolTip(
+            "Ghosts to first order, to see something at once; how far off they are is not known");
+    } else {
+        show_plan(picture.image->plan);
+    }
     if (picture.revision == timed_revision_) {
         return;  // the finer picture of the same change
     }
@@ -93,14 +98,77 @@ void StatusLine::show_plan(const FlarePlan& plan) {
     picture_->set_text(QStringLiteral("flare within *%1 %* · %2 of %3 ghosts drawn")
                            .arg(significant(100.0 * plan.estimated_error(), 2))
                            .arg(drawn)
-                           .arg(plan.ghosts.size()));
+                           .arg(plan.ghosts.size()) +
+                       (plan.left_out_mm2 > 0.0
+                            ? QStringLiteral(" · left out ≤ %1 %")
+                                  .arg(significant(100.0 * plan.left_out_share(), 2))
+                            : QString()));
     picture_->setToolTip(
-        QStringLiteral("Estimated error of the ghost layer, L1 over its light on the sensor "
-                       "(%1 % allowed).\n%2 ghosts land beside the sensor, through %3 no ray was "
-                       "found to pass; nothing else is left out.")
+        QStringLiteral(
+            "Estimated error of the ghost layer, L1 over its light on the sensor "
+            "(%1 % allowed).\n%2 ghosts land beside the sensor, through %3 no ray was "
+            "found to pass; %4 are left out, at most %5 % of the light.\nNot modelled: "
+            "light of four and more reflections, about %6 % of that of two (the surfaces "
+            "taken as plane).")
             .arg(significant(100.0 * plan.tolerance, 2))
             .arg(plan.count(GhostFate::off_sensor))
-            .arg(plan.count(GhostFate::nothing_passes)));
+            .arg(plan.count(GhostFate::nothing_passes))
+            .arg(plan.count(GhostFate::left_out))
+            .arg(significant(100.0 * plan.left_out_share(), 2),
+                 significant(100.0 * plan.not_modelled, 2)));
+}
+
+void StatusLine::show_engine(const EngineState& state) {
+    const unsigned threads = default_thread_count();
+    const QString cpu = QStringLiteral("CPU %1 · %2 thread%3")
+                            .arg(instruction_set_name())
+                            .arg(threads)
+                            .arg(threads == 1 ? "" : "s");
+    const bool gl = state.choice.engine == FlareEngine::gl;
+    engine_->set_text(gl ? "OpenGL · " + QString::fromStdString(state.gl_renderer) : cpu);
+    const QString reason = QString::fromStdString(state.choice.reason);
+    engine_->setToolTip(reason.isEmpty() ? QStringLiteral("What draws the flare")
+                                         : "What draws the flare. " + reason);
+    if (state.gave_up) {
+        show_message(QStringLiteral("OpenGL gave up, the CPU goes on: %1").arg(reason));
+    }
+}
+
+void StatusLine::show_proving(double share) {
+    const QString percent = QStringLiteral(" %1 %").arg(qRound(100.0 * share));
+    proof_->set_text((proven_.isEmpty() ? QStringLiteral("proving bounds")
+                                        : proven_ + QStringLiteral(" · proving on")) +
+                     percent);
+    proof_->setToolTip(
+        "Whether the search for where ghosts enter has missed light; stops when "
+        "something changes");
+}
+
+void StatusLine::show_proof(const std::shared_ptr<const PlanProof>& proof) {
+    const double missed = proof->missed_share();
+    const bool certified = proof->certified == proof->ghosts.size();
+    // A bound above all of the light says nothing about what was missed.
+    proven_ = certified ? QStringLiteral("*bounds certified*")
+              : missed < 1.0
+                  ? QStringLiteral("missed light ≤ *%1 %*").arg(significant(100.0 * missed, 2))
+                  : QStringLiteral("bounds of %1 of %2 ghosts certified")
+                        .arg(proof->certified)
+                        .arg(proof->ghosts.size());
+    proof_->set_text(proven_);
+    proof_->setToolTip(
+        QStringLiteral("Proven by interval arithmetic in %1 s: outside of where ghosts are drawn, "
+                       "light on the sensor comes to at most %2 % of theirs.\nThe bound of %3 of "
+                       "%4 ghosts is within their share of 0.1 %; for the others more cells would "
+                       "be needed, which is no sign that anything was missed.")
+            .arg(significant(proof->seconds, 2), significant(100.0 * missed, 2))
+            .arg(proof->certified)
+            .arg(proof->ghosts.size()));
+}
+
+void StatusLine::clear_proof() {
+    proven_.clear();
+    proof_->set_text({});
+    proof_->setToolTip({});
 }
 
 void StatusLine::show_message(const QString& message) { message_->set_text(message); }
@@ -110,6 +178,12 @@ QString StatusLine::timing_text() const { return timing_->text().remove('*'); }
 QString StatusLine::table_text() const { return table_->text().remove('*'); }
 
 QString StatusLine::picture_text() const { return picture_->text().remove('*'); }
+
+QString StatusLine::engine_text() const { return engine_->text().remove('*'); }
+
+QString StatusLine::proof_text() const { return proof_->text().remove('*'); }
+
+QString StatusLine::message_text() const { return message_->text(); }
 
 void StatusLine::follow_document() {
     message_->set_text({});

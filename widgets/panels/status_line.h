@@ -3,7 +3,9 @@
 #include <QWidget>
 
 #include <chrono>
+#include <memory>
 
+#include "core/flare/plan_proof.h"
 #include "widgets/jobs.h"
 
 namespace ghostlight {
@@ -21,11 +23,20 @@ class StatusLine : public QWidget {
     void show_progress(double share);
     /// A picture is on screen: its parts, and the time since the change that asked for it.
     void show_picture(const FlarePicture& picture, double upload_ms);
+    /// What draws the flare; says why where OpenGL has failed.
+    void show_engine(const EngineState& state);
+    /// How far the proof of the search for ghosts is, or what it came to.
+    void show_proving(double share);
+    void show_proof(const std::shared_ptr<const PlanProof>& proof);
+    void clear_proof();
     /// A thing that was done ("Wrote flare.exr"), until the next change.
     void show_message(const QString& message);
     QString timing_text() const;
     QString table_text() const;
     QString picture_text() const;
+    QString engine_text() const;
+    QString proof_text() const;
+    QString message_text() const;
 
    private:
     void follow_document();
@@ -36,10 +47,12 @@ class StatusLine : public QWidget {
     TabularLabel* table_;
     TabularLabel* timing_;
     TabularLabel* picture_;
+    TabularLabel* proof_;
     TabularLabel* message_;
     TabularLabel* engine_;
     TabularLabel* saved_;
     std::uint64_t timed_revision_ = 0;
+    QString proven_;  ///< what the last proof came to
 };
 
 }  // namespace ghostlight

@@ -15,7 +15,7 @@
 namespace ghostlight {
 namespace {
 
-// What the reference itself is uncertain by, on small pictures: its grids are finite too.
+// What the reference is asked for, and may err by.
 constexpr double reference_error = 0.004;
 
 FlareRequest request_of(LightDirection light, double tolerance, int width_px = 240) {
@@ -32,6 +32,7 @@ FlareImage planned(const Prescription& lens, const FlareRequest& request) {
 
 FlareImage reference(const Prescription& lens, FlareRequest request) {
     request.method = FlareMethod::reference;
+    request.tolerance = reference_error;
     return render_flare(lens, request).value();
 }
 

@@ -174,5 +174,87 @@ TEST(Spectrum, OtherNamesAreRefusedWithTheKnownOnes) {
     }
 }
 
+TEST(Spectrum, LedB3IsTheCies) {
+    // CIE 15:2018 table 12.2; its spectrum has two decimals.
+    const Chromaticity led = chromaticity(StandardLight{Illuminant::led_b3});
+    EXPECT_NEAR(led.x, 0.3756, 1.5e-4);
+    EXPECT_NEAR(led.y, 0.3723, 1.5e-4);
+}
+
+TEST(Spectrum, SodiumIsItsTwoLines) {
+    const Spectrum sodium = parse_spectrum("sodium");
+    EXPECT_EQ(name(sodium), "sodium");
+    EXPECT_TRUE(is_of_lines(sodium));
+    for (const int count : {1, 16}) {
+        const auto samples = sample(sodium, count);
+        ASSERT_EQ(samples.size(), 2U);
+        EXPECT_NEAR(samples[0].wavelength_nm, 589.0, 0.05);
+        EXPECT_NEAR(samples[1].wavelength_nm, 589.6, 0.05);
+        EXPECT_NEAR(samples[0].weight + samples[1].weight, 1.0, 1e-12);
+    }
+    EXPECT_NEAR(line_nm(sodium).value(), 589.19, 0.05);
+    EXPECT_EQ(nested_samples(sodium, 5).size(), 2U);
+    EXPECT_FALSE(line_nm(StandardLight{}));
+    EXPECT_THROW(passed_color(sodium, {1.0, 1.0}), Error);
+}
+
+TEST(Spectrum, ATableOfALightIsThatLight) {
+    SpectralTable table;
+    for (int nm = 380; nm <= 780; nm += 10)
+        table.push_back({static_cast<double>(nm), relative_power(StandardLight{}, nm)});
+    const Spectrum measured = tabulated_light("d65.csv", table);
+    EXPECT_EQ(name(measured), "d65.csv");
+    const Chromaticity of = chromaticity(measured);
+    EXPECT_NEAR(of.x, 0.31272, 2e-5);
+    EXPECT_NEAR(of.y, 0.32903, 2e-5);
+    EXPECT_EQ(relative_power(measured, 300.0), 0.0);
+    EXPECT_EQ(relative_power(measured, 800.0), 0.0);
+}
+
+TEST(Spectrum, SamplesOfANarrowBandHoldItsPower) {
+    // A band of 4 nm between the midpoints of 16 bands: midpoints alone would miss it.
+    const Spectrum narrow = tabulated_light("laser", {{508, 0}, {510, 1}, {512, 0}});
+    double weight = 0.0, mean = 0.0;
+    for (const SpectralSample& s : sample(narrow, 16)) {
+        weight += s.weight;
+        mean += s.weight * s.wavelength_nm;
+    }
+    EXPECT_NEAR(weight, 1.0, 1e-12);
+    EXPECT_NEAR(mean, 510.0, 300.0 / 16 / 2);  // half a band
+}
+
+TEST(Spectrum, RefusesTablesThatAreNone) {
+    const auto refusal = [](SpectralTable table) {
+        return error_of([&] { tabulated_light("t", std::move(table)); });
+    };
+    EXPECT_THAT(refusal({{500, 1}}).problem, testing::HasSubstr("too short"));
+    EXPECT_THAT(refusal({{500, 1}, {490, 1}}).problem, testing::HasSubstr("do not rise"));
+    EXPECT_EQ(refusal({{500, 1}, {500, 1}}).where, "entry 2");
+    EXPECT_THAT(refusal({{500, 1}, {510, -0.1}}).found, testing::HasSubstr("-0.1"));
+    EXPECT_THAT(refusal({{-5, 1}, {510, 1}}).problem, testing::HasSubstr("wavelength"));
+    EXPECT_THAT(refusal({{500, 1}, {510, std::nan("")}}).problem, testing::HasSubstr("power"));
+    EXPECT_THAT(refusal({{800, 1}, {1000, 1}}).found, testing::HasSubstr("800 to 1000"));
+    EXPECT_THAT(refusal({{400, 0}, {700, 0}}).expected, testing::HasSubstr("400 and 700"));
+}
+
+TEST(Spectrum, OneLightBalancedForAnother) {
+    const Rgb same = balanced_for(StandardLight{}, StandardLight{});
+    EXPECT_EQ(same.r, 1.0);
+    // Lamplight under daylight's balance is red, daylight under lamplight's blue; the two undo one
+    // another, and luminance stays.
+    const Rgb warm = balanced_for(StandardLight{Illuminant::d65}, StandardLight{Illuminant::a});
+    const Rgb cold = balanced_for(StandardLight{Illuminant::a}, StandardLight{Illuminant::d65});
+    EXPECT_GT(warm.r, 1.5);
+    EXPECT_LT(warm.b, 0.5);
+    EXPECT_NEAR(warm.r * cold.r, 1.0, 1e-9);
+    EXPECT_NEAR(warm.b * cold.b, 1.0, 1e-9);
+    // D65 is very nearly Rec.709's white: its balance is none, and luminances are kept.
+    EXPECT_NEAR(0.2126 * warm.r + 0.7152 * warm.g + 0.0722 * warm.b, 1.0, 0.01);
+    // A line shown alone is neutral; beside daylight it has its colour, outside the gamut.
+    const Rgb line = balanced_for(StandardLight{}, Monochromatic{589.2});
+    EXPECT_GT(line.r, 1.0);
+    EXPECT_LT(line.b, 0.0);
+}
+
 }  // namespace
 }  // namespace ghostlight

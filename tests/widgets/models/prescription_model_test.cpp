@@ -126,10 +126,10 @@ TEST_F(PrescriptionModelTest, ChipsForWhatReflects) {
 TEST_F(PrescriptionModelTest, AMovingLightIsNoNews) {
     QSignalSpy changed(&model, &PrescriptionModel::dataChanged);
     Scene scene = document.scene();
-    scene.light.field_deg = 3.0;
+    scene.light().direction.field_deg = 3.0;
     document.edit_scene(scene, "move the light");
     EXPECT_EQ(changed.count(), 0);
-    scene.spectrum = Monochromatic{450.0};
+    scene.light().spectrum = Monochromatic{450.0};
     document.edit_scene(scene, "change spectrum");
     EXPECT_EQ(changed.count(), 1);  // the chips
 }

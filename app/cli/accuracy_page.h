@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/cli/options.h"
+#include "core/flare/accuracy.h"
+#include "core/io/log_chart_svg.h"
+#include "core/io/table.h"
+
+namespace ghostlight::cli {
+
+/// One lens with one light and one stop, measured.
+struct AccuracyCase {
+    LoadedLens loaded;
+    std::string short_name;
+    double field_deg = 0.0, closed_stops = 0.0;
+    AccuracyReport report;
+};
+
+/// What the pages say of a run beside its numbers.
+struct AccuracyRun {
+    std::string command, spectrum, machine, date;
+    std::vector<AccuracyCase> cases;
+};
+
+/// One row a point of a case; tidy, every digit.
+Table accuracy_rows(const AccuracyRun& run);
+/// One row a ghost by a method.
+Table ghost_accuracy_rows(const AccuracyRun& run);
+
+/// Error against time of a case.
+LogChart error_time_chart(const AccuracyCase& one);
+/// The error asked of the plan against the one it has, all cases.
+LogChart promise_chart(const AccuracyRun& run);
+
+/// How often the plan kept what it was asked, over the cases where that can be told.
+struct Promises {
+    std::size_t kept = 0, broken = 0, unresolved = 0;
+};
+Promises promises_of(const AccuracyRun& run);
+
+/// Least median time of a method within an error, ms; infinite where none of its points is.
+double time_within_ms(const AccuracyReport& report, const std::string& method, double error);
+
+/// A self-contained page with charts and tables.
+std::string accuracy_html(const AccuracyRun& run);
+/// The same in short, with words on what to choose, for docs/accuracy.md; charts by their files.
+std::string accuracy_markdown(const AccuracyRun& run, const std::string& chart_folder);
+
+/// The name of a case's chart, without a folder.
+std::string chart_file(const AccuracyCase& one);
+
+}  // namespace ghostlight::cli

@@ -1,0 +1,119 @@
+#include "core/flare/fresnel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+
+#include "core/flare/fourier_2d.h"
+
+namespace ghostlight {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double series_below = 1.8;
+/// Below this Fresnel number light spreads so far that the grid is padded eightfold, not twofold.
+constexpr double wide_below = 4.0;
+constexpr int wide_across = 1024, narrow_across = 1024;
+
+std::size_t idx(int i) { return static_cast<std::size_t>(i); }
+
+FresnelIntegrals by_series(double x) {
+    // C + iS = ∫ exp(iπt²/2) dt = Σ (iπ/2)ⁿ x²ⁿ⁺¹ / (n! (2n + 1))
+    const std::complex<double> step(0.0, 0.5 * pi * x * x);
+    std::complex<double> power = x, sum = x;
+    for (int n = 1; n < 100; ++n) {
+        power *= step / static_cast<double>(n);
+        const auto term = power / (2.0 * n + 1.0);
+        sum += term;
+        if (std::abs(term) < 1e-17 * std::abs(sum)) break;
+    }
+    return {sum.real(), sum.imag()};
+}
+
+FresnelIntegrals by_fraction(double x) {
+    // C + iS = (1 + i)/2 · [1 − erfc(z)], z = √π/2 (1 − i) x, and erfc by its continued fraction.
+    using Complex = std::complex<double>;
+    const Complex z = 0.5 * std::sqrt(pi) * Complex(1.0, -1.0) * x;
+    // √π exp(z²) erfc(z) = 1/(z + ½/(z + 1/(z + 3/2/(z + …)))), from the end.
+    Complex tail = z;
+    for (int n = 120; n >= 1; --n) tail = z + 0.5 * n / tail;
+    const Complex erfc = std::exp(-z * z) / (std::sqrt(pi) * tail);
+    const Complex value = Complex(0.5, 0.5) * (1.0 - erfc);
+    return {value.real(), value.imag()};
+}
+
+}  // namespace
+
+FresnelIntegrals fresnel_integrals(double x) {
+    const double size = std::abs(x);
+    FresnelIntegrals value = size < series_below ? by_series(size) : by_fraction(size);
+    if (x < 0.0) value = {-value.c, -value.s};
+    return value;
+}
+
+double straight_edge(double w) {
+    const auto [c, s] = fresnel_integrals(w);
+    return 0.5 * ((0.5 + c) * (0.5 + c) + (0.5 + s) * (0.5 + s));
+}
+
+int propagation_raster(double fresnel_number) {
+    return fresnel_number < wide_below ? wide_across / 8 : narrow_across / 2;
+}
+
+std::optional<PropagatedMask> propagated(const MaskRaster& raster, double fresnel_number,
+                                         unsigned threads, const std::stop_token& stop) {
+    const int across = fresnel_number < wide_below ? wide_across : narrow_across;
+    const double width = across * raster.pitch();  // of the padded grid, in semi-diameters
+    std::vector<std::complex<float>> field(idx(across) * idx(across));
+    const int first = (across - raster.across) / 2;
+    for (int j = 0; j < raster.across; ++j)
+        for (int i = 0; i < raster.across; ++i)
+            field[idx(first + j) * idx(across) + idx(first + i)] =
+                raster.open[idx(j * raster.across + i)];
+    if (!transform_2d(field, across, false, threads, stop)) return std::nullopt;
+    // Light of frequency f lands f/N away. What would run round the padded grid and back into the
+    // part that is kept is left out (Matsushima and Shimobaba 2009), softly.
+    const double furthest = width - 1.0 - (fresnel_number < wide_below ? 4.0 : 1.0);
+    auto kept_share = [&](double f) {
+        const double t = std::clamp((furthest - f / fresnel_number) / (0.1 * furthest), 0.0, 1.0);
+        return t * t * (3.0 - 2.0 * t);
+    };
+    auto frequency = [&](int i) { return (i < across / 2 ? i : i - across) / width; };
+    for (int j = 0; j < across; ++j)
+        for (int i = 0; i < across; ++i) {
+            const double f2 = frequency(i) * frequency(i) + frequency(j) * frequency(j);
+            const double phase = std::remainder(-pi * f2 / fresnel_number, 2.0 * pi);
+            field[idx(j) * idx(across) + idx(i)] *= std::polar(
+                static_cast<float>(kept_share(std::sqrt(f2))), static_cast<float>(phase));
+        }
+    if (!transform_2d(field, across, true, threads, stop)) return std::nullopt;
+    PropagatedMask result;
+    result.reach = std::min(0.5 * width, fresnel_number < wide_below ? 4.0 : 2.0);
+    const int kept = static_cast<int>(std::lround(2.0 * result.reach / raster.pitch()));
+    result.across = kept;
+    result.irradiance.resize(idx(kept) * idx(kept));
+    const float scale = 1.0F / (static_cast<float>(across) * static_cast<float>(across));
+    const int from = (across - kept) / 2;
+    for (int j = 0; j < kept; ++j)
+        for (int i = 0; i < kept; ++i)
+            result.irradiance[idx(j) * idx(kept) + idx(i)] =
+                std::norm(field[idx(from + j) * idx(across) + idx(from + i)] * scale);
+    return result;
+}
+
+double PropagatedMask::at(double x, double y) const {
+    const double column = (x / reach + 1.0) * 0.5 * across - 0.5;
+    const double row = (y / reach + 1.0) * 0.5 * across - 0.5;
+    if (!(column >= 0.0 && row >= 0.0 && column < across - 1.0 && row < across - 1.0)) return 0.0;
+    const int i = static_cast<int>(column), j = static_cast<int>(row);
+    const double fx = column - i, fy = row - j;
+    auto pixel = [&](int a, int b) {
+        return static_cast<double>(irradiance[idx(b) * idx(across) + idx(a)]);
+    };
+    return std::lerp(std::lerp(pixel(i, j), pixel(i + 1, j), fx),
+                     std::lerp(pixel(i, j + 1), pixel(i + 1, j + 1), fx), fy);
+}
+
+}  // namespace ghostlight

@@ -1,0 +1,139 @@
+#include "core/flare/probe_all.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/ghosts/incoherent_stack.h"
+#include "core/parallel.h"
+
+namespace ghostlight {
+namespace {
+
+/// What is granted in all, over what is asked, by the tolerance: linear between in its logarithm.
+/// Errors of ghosts cancel in part where they overlap, and the estimates are cautious; at tight
+/// tolerances there is more that no estimate sees. Calibrated on the bundled lenses, see
+/// docs/benchmarks.md.
+struct Granted {
+    double tolerance, share;
+};
+constexpr std::array<Granted, 6> granted = {
+    {{0.003, 0.25}, {0.005, 0.35}, {0.01, 0.5}, {0.02, 0.9}, {0.04, 1.2}, {0.1, 1.6}}};
+constexpr double most_share = 0.5;  ///< of a ghost's own light
+/// Of the tolerance, for what is left out.
+constexpr double left_out_share = 0.1;
+/// Those ghosts are weighed first that have this share of all bounds: their light is nearly all.
+constexpr double strong_share = 0.9;
+/// With a plan nearby, one ghost of so many is searched for in all of the entrance all the same.
+constexpr std::size_t search_anew_every = 8;
+
+/// A plan for another count of ghosts is of another lens.
+const PlannedGhost* nearby_of(const FlareRequest& request, std::size_t g, const GhostPath& path) {
+    if (!request.nearby || g >= request.nearby->ghosts.size()) return nullptr;
+    const PlannedGhost& nearby = request.nearby->ghosts[g];
+    const bool anew = (g + static_cast<std::size_t>(request.turn)) % search_anew_every == 0;
+    return anew || nearby.path != path ? nullptr : &nearby;
+}
+
+/// The ghosts that are found, by falling bound.
+std::vector<std::size_t> by_bound(const std::vector<ProbedGhost>& ghosts) {
+    std::vector<std::size_t> order;
+    for (std::size_t g = 0; g < ghosts.size(); ++g)
+        if (ghosts[g].planned.fate == GhostFate::drawn) order.push_back(g);
+    std::ranges::stable_sort(order, std::ranges::greater{},
+                             [&](std::size_t g) { return ghosts[g].planned.bound_mm2; });
+    return order;
+}
+
+double granted_share(double tolerance) {
+    if (tolerance <= granted.front().tolerance) return granted.front().share;
+    for (std::size_t k = 1; k < granted.size(); ++k) {
+        const auto [low, share] = granted[k - 1];
+        const auto [high, next] = granted[k];
+        if (tolerance < high)
+            return std::lerp(share, next, std::log(tolerance / low) / std::log(high / low));
+    }
+    return granted.back().share;
+}
+
+void share_among(std::vector<ProbedGhost>& ghosts, double tolerance) {
+    std::vector<ErrorShare> shares;
+    double total = 0.0, left_out = 0.0;
+    for (const ProbedGhost& ghost : ghosts) {
+        const bool drawn = ghost.planned.fate == GhostFate::drawn;
+        shares.push_back({drawn ? ghost.planned.flux_mm2 : 0.0,
+                          ghost.errors.grid_mm2 + ghost.errors.merging_mm2});
+        total += shares.back().flux_mm2;
+        if (ghost.planned.fate == GhostFate::left_out) left_out += ghost.planned.bound_mm2;
+    }
+    const std::vector<double> allowance = share_out(
+        shares, granted_share(tolerance) * std::max(0.0, tolerance * total - left_out), most_share);
+    for (std::size_t g = 0; g < ghosts.size(); ++g) ghosts[g].planned.allowance_mm2 = allowance[g];
+}
+
+}  // namespace
+
+std::optional<std::vector<ProbedGhost>> probe_all(const FlareScene& scene,
+                                                  const GhostPlanner& planner,
+                                                  const FlareRequest& request,
+                                                  std::stop_token stop) {
+    const std::vector<GhostPath>& paths = request.only.empty() ? scene.ghosts : request.only;
+    std::vector<ProbedGhost> ghosts(paths.size());
+    const bool found = parallel_for(ghosts.size(), request.threads, stop, [&](std::size_t g) {
+        ghosts[g] = planner.find(paths[g], nearby_of(request, g, paths[g]));
+    });
+    if (!found) return std::nullopt;
+
+    const std::vector<std::size_t> order = by_bound(ghosts);
+    double all_mm2 = 0.0, first_mm2 = 0.0;
+    for (const std::size_t g : order) all_mm2 += ghosts[g].planned.bound_mm2;
+    std::size_t strong = 0;
+    while (strong < order.size() && first_mm2 < strong_share * all_mm2)
+        first_mm2 += ghosts[order[strong++]].planned.bound_mm2;
+    auto weigh = [&](std::size_t first, std::size_t count) {
+        return parallel_for(count, request.threads, stop,
+                            [&](std::size_t k) { planner.weigh(ghosts[order[first + k]]); });
+    };
+    if (!weigh(0, strong)) return std::nullopt;
+
+    double light_mm2 = 0.0;
+    for (std::size_t k = 0; k < strong; ++k)
+        if (ghosts[order[k]].planned.fate == GhostFate::drawn)
+            light_mm2 += ghosts[order[k]].planned.flux_mm2;
+    double budget_mm2 = left_out_share * request.tolerance * light_mm2;
+    std::size_t end = order.size();
+    // What is asked for by name, or by the share of each, is not left out.
+    while (request.only.empty() && end > strong) {
+        PlannedGhost& weakest = ghosts[order[end - 1]].planned;
+        if (weakest.bound_mm2 > budget_mm2 ||
+            std::ranges::find(request.highlighted, weakest.path) != request.highlighted.end())
+            break;
+        budget_mm2 -= weakest.bound_mm2;
+        weakest.fate = GhostFate::left_out;
+        --end;
+    }
+    if (!weigh(strong, end - strong)) return std::nullopt;
+    share_among(ghosts, request.tolerance);
+    return ghosts;
+}
+
+FlarePlan plan_of(const FlareScene& scene, const FlareRequest& request,
+                  std::vector<ProbedGhost>& ghosts) {
+    FlarePlan plan;
+    plan.tolerance = request.tolerance;
+    plan.not_modelled = higher_order_share(scene.system());
+    // What is granted beyond what is asked is what the estimates are too cautious by.
+    const double caution = std::max(1.0, granted_share(request.tolerance));
+    for (ProbedGhost& ghost : ghosts) {
+        PlannedGhost& planned = ghost.planned;
+        planned.error_mm2 /= caution;
+        plan.flux_mm2 += planned.flux_mm2;
+        plan.error_mm2 += planned.error_mm2;
+        if (planned.fate == GhostFate::left_out) plan.left_out_mm2 += planned.bound_mm2;
+        plan.ghosts.push_back(std::move(planned));
+    }
+    return plan;
+}
+
+}  // namespace ghostlight

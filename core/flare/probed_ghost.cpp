@@ -1,0 +1,142 @@
+// GhostPlanner's first look at a ghost: where it enters, its light, and what a first drawing of it
+// would get wrong. What follows from that is in planned_ghost.cpp.
+#include <algorithm>
+#include <utility>
+
+#include "core/flare/ghost_measures.h"
+#include "core/flare/grid_light.h"
+#include "core/flare/planned_ghost.h"
+
+namespace ghostlight {
+namespace {
+
+constexpr int close_cells = 48;          ///< where hardly a ray of a probe passes
+constexpr std::size_t few_passing = 12;  ///< of a probe's nodes
+constexpr int shift_cells = 6;           ///< of the grids that lateral colour is measured on
+/// Of the bend times the contrast: only its part across an edge counts, and most of the contrast
+/// is at rims, where chords follow the bend. Calibrated on all bundled lenses, see
+/// docs/benchmarks.md.
+constexpr double grid_factor = 0.3;
+/// Of a chord's height: unbiased chords are off by a quarter of it on average.
+constexpr double rim_factor = 0.25;
+/// Of the light in singular cells: a root drawn as a line is off by as much, over a cell.
+constexpr double singular_factor = 0.3;
+/// Of the shift between the outer geometry wavelengths times the contrast: most of the light lies
+/// well within them, and shifts along a rim do not matter. Calibrated likewise.
+constexpr double merging_factor = 0.02;
+
+}  // namespace
+
+GhostPlanner::GhostPlanner(const FlareScene& scene, const LightDirection& light,
+                           const PixelFrame& frame, ProbeSearch search)
+    : scene_(scene),
+      search_(search),
+      placement_(scene.system(), light, frame),
+      beam_(beam_frame({light.field_deg, 90.0})),
+      entrance_(entrance_box(scene.system(), beam_)) {}
+
+MirrorGrid GhostPlanner::traced(const PlannedGhost& planned, std::size_t node, int cells,
+                                bool keep_cosines, Weights weights) const {
+    MirrorGrid grid;
+    grid.box = planned.box;
+    grid.cells = cells;
+    grid.half.keep_cosines = keep_cosines;
+    trace_mirrored(trace_path<float>(scene_.geometry[node], planned.path), beam_, weights, grid);
+    return grid;
+}
+
+ProbedGhost GhostPlanner::find(const GhostPath& path, const PlannedGhost* nearby) const {
+    ProbedGhost result;
+    PlannedGhost& planned = result.planned;
+    planned.path = path;
+    if (nearby != nullptr && nearby->fate == GhostFate::nothing_passes) {
+        planned.fate = GhostFate::nothing_passes;
+        return result;
+    }
+    const auto trace = trace_path<float>(scene_.system(), path);
+    GhostProbe probe = probe_ghost(scene_.system(), trace, beam_, entrance_, probe_cells, search_,
+                                   nearby != nullptr ? &nearby->box : nullptr);
+    planned.rays = probe.rays;
+    if (probe.empty) {
+        planned.fate = GhostFate::nothing_passes;
+        return result;
+    }
+    result.passing = probe.passing;
+    result.grid = std::move(probe.grid);
+    planned.box = result.grid.box;
+    planned.bound_mm2 = box_bound_mm2(scene_, trace, result.grid);
+    return result;
+}
+
+void GhostPlanner::weigh(ProbedGhost& ghost) const {
+    PlannedGhost& planned = ghost.planned;
+    if (planned.fate != GhostFate::drawn) return;
+    const auto trace = trace_path<float>(scene_.system(), planned.path);
+    ghost.polarised = polarised_share(scene_, trace, beam_, planned.box);
+    ghost.weights = ghost_weights(scene_, trace, ghost.grid, ghost.polarised);
+    planned.rays += ghost.polarised.ratio.size();
+
+    MirrorGrid closer;
+    if (ghost.passing < few_passing) {
+        closer = traced(planned, scene_.main, close_cells);
+        planned.rays += closer.half.size();
+    }
+    const MirrorGrid& first = closer.cells > 0 ? closer : ghost.grid;
+    MeshNodes nodes = placement_.place(first);
+    interpolate(ghost.grid,
+                ray_light<gray_channels>(scene_, ghost.grid, ghost.weights,
+                                         channel_shares<gray_channels>(scene_, 0, 1)),
+                1, nodes.cells, nodes.weights);
+    const FrameLight light = light_on_frame(nodes, placement_.frame());
+    planned.flux_mm2 = light.flux_mm2;
+    planned.whole_flux_mm2 = light.whole_flux_mm2;
+    planned.moments = moments_of(nodes, placement_.frame());
+    if (!light.passes)
+        planned.fate = GhostFate::nothing_passes;
+    else if (!light.near_frame)
+        planned.fate = GhostFate::off_sensor;
+    else
+        look(first, nodes, ghost);
+}
+
+ProbedGhost GhostPlanner::probe(const GhostPath& path) const {
+    ProbedGhost ghost = find(path);
+    weigh(ghost);
+    return ghost;
+}
+
+/// How far apart the outer geometry wavelengths land, from few rays where they suffice.
+double GhostPlanner::shift_of_colors_px(const PlannedGhost& planned) const {
+    double shift = 0.0;
+    for (const int cells : {shift_cells, probe_cells}) {
+        shift = shift_px(placement_.place(traced(planned, 0, cells)),
+                         placement_.place(traced(planned, scene_.geometry.size() - 1, cells)));
+        if (shift > 0.0) break;  // else no node of both passes
+    }
+    return shift;
+}
+
+/// What a plain drawing of the first grid would get wrong.
+void GhostPlanner::look(const MirrorGrid& first, const MeshNodes& nodes, ProbedGhost& ghost) const {
+    const PixelFrame& frame = placement_.frame();
+    ColorMesh<gray_channels> mesh;
+    add_grid(nodes, frame, mesh);
+    const double contrast = mesh.edge_contrast * frame.pixel_area_mm2();
+    FirstErrors& errors = ghost.errors;
+    errors.contrast_mm2 = contrast;
+    errors.cells = first.cells;
+    errors.area_px2 = mesh.area_px2;
+    if (scene_.coating_model == CoatingModel::exact)
+        errors.singular_mm2 = singular_factor * light_in(singular_cells(first, nodes), nodes);
+    // The error of a bilinear map falls fourfold on doubling the grid.
+    errors.grid_mm2 =
+        contrast * (grid_factor * bend_px(nodes, frame) + rim_factor * rim_px(nodes, frame));
+    if (scene_.geometry.size() > 1)
+        errors.merging_mm2 = merging_factor * contrast * shift_of_colors_px(ghost.planned);
+    errors.weight_mm2 = ghost.planned.flux_mm2 *
+                        roughness(ghost.grid, ray_light<gray_channels>(
+                                                  scene_, ghost.grid, ghost.weights,
+                                                  channel_shares<gray_channels>(scene_, 0, 1)));
+}
+
+}  // namespace ghostlight

@@ -1,0 +1,156 @@
+#include "widgets/panels/layers_strip.h"
+
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QToolButton>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/flare/light.h"
+#include "widgets/document.h"
+#include "widgets/number_text.h"
+#include "widgets/panels/quiet_button.h"
+#include "widgets/panels/scene_field.h"
+
+namespace ghostlight {
+
+namespace {
+
+constexpr double gain_step_ev = 0.5;
+
+struct LayerText {
+    const char* title;
+    const char* tip;
+};
+LayerText text_of(LayerKind kind) {
+    switch (kind) {
+        case LayerKind::ghosts:
+            return {"Ghosts", "Light that was reflected between surfaces."};
+        case LayerKind::starburst:
+            return {"Starburst", "The direct image, spread by diffraction at the stop."};
+        case LayerKind::veil:
+            return {"Veil",
+                    "Ghosts folded away and light scattered by the lens; both are set in the Light "
+                    "panel."};
+        case LayerKind::backdrop:
+            break;
+    }
+    return {"Backdrop", "A picture behind the flare. Its white is a white surface in the sun."};
+}
+
+}  // namespace
+
+LayersStrip::LayersStrip(Document& document, QWidget* parent)
+    : QFrame(parent), document_(document) {
+    setObjectName("layers_strip");
+    setFixedHeight(40);
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(12, 6, 12, 6);
+    row->setSpacing(4);
+    for (const LayerKind kind : layer_kinds) {
+        add_row(kind);
+    }
+    row->addStretch(1);
+    ask_backdrop = [this] {
+        return QFileDialog::getOpenFileName(
+            window(), "A picture behind the flare", {},
+            "Pictures (*.exr *.hdr *.png *.jpg *.jpeg *.tif *.tiff);;All files (*)");
+    };
+    connect(&document_, &Document::changed, this, &LayersStrip::follow_document);
+    follow_document();
+}
+
+void LayersStrip::add_row(LayerKind kind) {
+    Row& row = rows_[static_cast<std::size_t>(kind)];
+    const LayerText text = text_of(kind);
+    row.on = quiet_button(text.title, text.tip, true);
+    row.gain = new NumberField("", " EV",
+                               QStringLiteral("Gain of the layer %1, −40 to +40 EV. Wheel or "
+                                              "arrows: half a stop.")
+                                   .arg(QString(text.title).toLower()));
+    row.reset = quiet_button("↺", "Back to 0 EV", false);
+    row.alone = quiet_button("alone", "Show this layer only; again for all", true);
+    auto* strip = static_cast<QHBoxLayout*>(layout());
+    strip->addWidget(row.on);
+    strip->addWidget(row.gain);
+    strip->addWidget(row.reset);
+    strip->addWidget(row.alone);
+    if (kind == LayerKind::ghosts) {
+        ringing_ = quiet_button("ringing",
+                                "Diffraction at the ghosts' rims, where its fringes are a pixel "
+                                "wide or more; at rest",
+                                true);
+        strip->addWidget(ringing_);
+        connect(ringing_, &QToolButton::clicked, this, [this](bool on) {
+            Scene scene = document_.scene();
+            scene.ringing = on;
+            document_.edit_scene(scene, on ? "ring the ghosts' rims" : "leave rims sharp");
+        });
+    }
+    strip->addSpacing(14);
+    connect(row.on, &QToolButton::clicked, this, [this, kind](bool on) { switch_layer(kind, on); });
+    connect(row.alone, &QToolButton::clicked, this, [this, kind](bool on) {
+        Scene scene = document_.scene();
+        scene.layers.alone = on ? std::optional(kind) : std::nullopt;
+        document_.edit_scene(scene, "show a layer alone");
+    });
+    connect(row.reset, &QToolButton::clicked, this, [this, kind] { set_gain(kind, 0.0); });
+    connect(row.gain, &NumberField::stepped, this, [this, kind](int steps) {
+        set_gain(kind, document_.scene().layers.of(kind).gain_ev + steps * gain_step_ev);
+    });
+    connect(
+        row.gain, &NumberField::entered, this, [this, kind, field = row.gain](const auto& typed) {
+            const auto value = parse_number(typed);
+            const bool fits = value && std::abs(*value) <= most_ev;
+            field->set_refused(!fits);
+            Q_EMIT refused(fits
+                               ? QString()
+                               : QStringLiteral("a gain: found '%1', expected stops from −40 to 40")
+                                     .arg(typed));
+            if (fits) {
+                set_gain(kind, *value);
+            }
+        });
+}
+
+void LayersStrip::switch_layer(LayerKind kind, bool on) {
+    Scene scene = document_.scene();
+    if (on && kind == LayerKind::backdrop && scene.backdrop.file.empty()) {
+        const QString file = ask_backdrop();
+        if (file.isEmpty()) {
+            follow_document();
+            return;
+        }
+        scene.backdrop.file = file.toStdString();
+    }
+    scene.layers.of(kind).on = on;
+    document_.edit_scene(scene, on ? "show a layer" : "hide a layer");
+}
+
+void LayersStrip::set_gain(LayerKind kind, double gain_ev) {
+    Scene scene = document_.scene();
+    scene.layers.of(kind).gain_ev = std::clamp(gain_ev, -most_ev, most_ev);
+    document_.edit_scene(scene, "change the gain of a layer",
+                         "gain " + QString::fromUtf8(name(kind).data()));
+}
+
+void LayersStrip::follow_document() {
+    const LayerSettings& layers = document_.scene().layers;
+    ringing_->setEnabled(!document_.is_empty() && layers.shows(LayerKind::ghosts));
+    ringing_->setChecked(document_.scene().ringing);
+    for (const LayerKind kind : layer_kinds) {
+        const Row& row = rows_[static_cast<std::size_t>(kind)];
+        const LayerSetting& setting = layers.of(kind);
+        row.on->setEnabled(!document_.is_empty());
+        row.on->setChecked(setting.on);
+        row.alone->setEnabled(!document_.is_empty() && (setting.on || layers.alone == kind));
+        row.alone->setChecked(layers.alone == kind);
+        row.gain->setEnabled(layers.shows(kind));
+        row.gain->set_text(at_least_decimals(std::round(setting.gain_ev * 100.0) / 100.0, 1));
+        row.reset->setEnabled(setting.gain_ev != 0.0);
+    }
+}
+
+}  // namespace ghostlight

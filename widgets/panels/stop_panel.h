@@ -1,0 +1,97 @@
+#pragma once
+
+#include <QImage>
+#include <QTimer>
+#include <QWidget>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/flare/spectrum.h"
+#include "core/optics/prescription.h"
+#include "widgets/newest_job.h"
+
+class QGridLayout;
+class QLabel;
+class QLineEdit;
+class QStackedWidget;
+class QToolButton;
+
+namespace ghostlight {
+
+class Actions;
+class Document;
+class EmptyState;
+class PanelHeader;
+
+/// The stop: its blades, its image and its dirt, each with unit, range and reset; above them the
+/// opening and the starburst that it makes, worked out on another thread.
+class StopPanel : public QWidget {
+    Q_OBJECT
+   public:
+    StopPanel(Document& document, const Actions& actions, QWidget* parent = nullptr);
+    ~StopPanel() override;
+
+    /// "blades", "curvature", "rotation", "image", "dust", "dust_smallest", "dust_largest",
+    /// "scratches", "scratch_thinnest", "scratch_widest", "fingerprint", "seed".
+    QLineEdit& editor(const QString& name) const;
+    QToolButton& reset_button(const QString& name) const;
+    /// Why the last entry was not taken, or why there is no starburst; empty otherwise.
+    QString reason() const { return reason_; }
+    const QImage& opening() const { return opening_; }
+    const QImage& starburst() const { return starburst_; }
+    /// The pictures are those of the document as it is.
+    bool is_settled() const { return !delay_.isActive() && shown_serial_ == serial_; }
+    /// Lays an image over the stop; false, with the reason shown, if it is none.
+    bool take_image(const QString& file);
+
+   private:
+    struct Row {
+        QString name;
+        QLineEdit* editor;
+        QToolButton* reset;
+        std::function<QString(const Stop&)> text;
+        std::function<void(Stop&, const QString&)> read;  ///< throws Error
+        std::function<void(Stop&)> clear;                 ///< back to the usual value
+    };
+    struct Request {
+        Prescription lens;
+        Spectrum spectrum;
+        std::uint64_t serial = 0;
+    };
+
+    void add_rows(QGridLayout& grid);
+    void add_row(QGridLayout& grid, const QString& name, const QString& label, const QString& unit,
+                 const QString& tip, std::function<QString(const Stop&)> text,
+                 std::function<void(Stop&, const QString&)> read, std::function<void(Stop&)> clear);
+    void add_image_row(QGridLayout& grid);
+    void enter(const Row& row, const QString& text);
+    void change(const QString& what, const QString& field, const std::function<void(Stop&)>& edit);
+    void follow_document();
+    void request();
+    void work_on(const Request& request, const std::stop_token& stop);
+    void show_pictures(const QImage& opening, const QImage& starburst, const QString& scale,
+                       const QString& reason, std::uint64_t serial);
+    void show_reason(const QString& reason);
+
+    Document& document_;
+    PanelHeader* header_;
+    EmptyState* empty_;
+    QStackedWidget* pages_;
+    QLabel* opening_label_;
+    QLabel* starburst_label_;
+    QLabel* reason_label_;
+    std::vector<Row> rows_;
+    QTimer delay_;  ///< many changes, one calculation
+    Prescription asked_;
+    Spectrum asked_spectrum_;
+    QImage opening_, starburst_;
+    QString reason_;
+    std::uint64_t serial_ = 0;
+    std::uint64_t shown_serial_ = 0;
+    std::unique_ptr<NewestJob<Request>> job_;
+};
+
+}  // namespace ghostlight
