@@ -61,7 +61,7 @@ TEST_F(CommandLineStarburst, MaskIsAnImage) {
     // A picture of the program's own: what it shows white is open.
     cli_output({"starburst", tessar(), "--f-number", "8", "--width", "64", "--exposure", "10",
                 "--out", file("mask.png")});
-    const Csv masked = starburst({"--f-number", "8", "--mask", file("mask.png")});
+    const Csv masked = starburst({"--f-number", "8", "--stop-mask", file("mask.png")});
     EXPECT_LT(masked.number(0, "flux_mm2"),
               0.5 * starburst({"--f-number", "8"}).number(0, "flux_mm2"));
     EXPECT_GT(masked.number(0, "flux_mm2"), 0.0);
@@ -84,8 +84,8 @@ TEST_F(CommandLineStarburst, WhatIsWrongIsNamed) {
         const std::string message = refusal({option, value});
         EXPECT_NE(message.find(option), std::string::npos) << message;
     }
-    EXPECT_NE(refusal({"--mask", file("text.png")}).find("text.png"), std::string::npos);
-    EXPECT_NE(refusal({"--mask", file("absent.png")}).find("absent.png"), std::string::npos);
+    EXPECT_NE(refusal({"--stop-mask", file("text.png")}).find("text.png"), std::string::npos);
+    EXPECT_NE(refusal({"--stop-mask", file("absent.png")}).find("absent.png"), std::string::npos);
 }
 
 TEST_F(CommandLineStarburst, RingingSaysWhichGhostsGotIt) {

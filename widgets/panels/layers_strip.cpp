@@ -46,6 +46,9 @@ LayersStrip::LayersStrip(Document& document, QWidget* parent)
     : QFrame(parent), document_(document) {
     setObjectName("layers_strip");
     setFixedHeight(40);
+    // The docks beside the flare keep their widths, however many layers are on.
+    setMinimumWidth(1);
+    setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(12, 6, 12, 6);
     row->setSpacing(4);
@@ -71,7 +74,7 @@ void LayersStrip::add_row(LayerKind kind) {
                                               "arrows: half a stop.")
                                    .arg(QString(text.title).toLower()));
     row.reset = quiet_button("↺", "Back to 0 EV", false);
-    row.alone = quiet_button("alone", "Show this layer only; again for all", true);
+    row.alone = quiet_button("◎", "Show this layer alone; again for all", true);
     auto* strip = static_cast<QHBoxLayout*>(layout());
     strip->addWidget(row.on);
     strip->addWidget(row.gain);
@@ -89,7 +92,7 @@ void LayersStrip::add_row(LayerKind kind) {
             document_.edit_scene(scene, on ? "ring the ghosts' rims" : "leave rims sharp");
         });
     }
-    strip->addSpacing(14);
+    strip->addSpacing(8);
     connect(row.on, &QToolButton::clicked, this, [this, kind](bool on) { switch_layer(kind, on); });
     connect(row.alone, &QToolButton::clicked, this, [this, kind](bool on) {
         Scene scene = document_.scene();
@@ -150,6 +153,10 @@ void LayersStrip::follow_document() {
         row.gain->setEnabled(layers.shows(kind));
         row.gain->set_text(at_least_decimals(std::round(setting.gain_ev * 100.0) / 100.0, 1));
         row.reset->setEnabled(setting.gain_ev != 0.0);
+        // What is off takes no room but its name.
+        row.gain->setVisible(layers.shows(kind));
+        row.reset->setVisible(layers.shows(kind) && setting.gain_ev != 0.0);
+        row.alone->setVisible(setting.on || layers.alone == kind);
     }
 }
 
