@@ -297,9 +297,9 @@ std::string accuracy_markdown(const AccuracyRun& run, const std::string& chart_f
         run.command, run.date, run.machine, run.spectrum);
     text += "## What to choose\n\n";
     text +=
-        "`planned` takes an error and keeps it; there is no grid to choose. Per halving of the "
-        "error it takes about\nthis much longer, and the others take, for the same error, so many "
-        "times as long (medians over the cases):\n\n"
+        "`planned` takes an error; there is no grid to choose. Its time, and how many times as "
+        "long "
+        "the others take for\nthe same error (medians over the cases):\n\n"
         "| error | planned, ms | uniform grids | paraxial |\n| --- | --- | --- | --- |\n";
     for (const double error : {0.2, 0.1, 0.05, 0.02, 0.01}) {
         std::vector<double> times;

@@ -158,7 +158,7 @@ void run(const FitOptions& options) {
     const std::vector<std::string_view> masks =
         options.masks.empty() ? std::vector<std::string_view>{} : split(options.masks, ',');
     if (!masks.empty() && masks.size() != 1 && masks.size() != files.size())
-        throw bad_value("--mask", options.masks, "one picture, or one for each photograph");
+        throw bad_value("--photo-mask", options.masks, "one picture, or one for each photograph");
     const OpticalSystem system = compile(loaded.lens, d_line_nm);
     std::vector<Photo> pictures;
     for (const auto file : files) pictures.push_back(read_photo(std::filesystem::path(file)));
@@ -278,7 +278,8 @@ void add_fit(CLI::App& program) {
     add_spectrum(*command, options->spectrum);
     add_text(*command, "--out", options->out, "FILE", "the fitted lens");
     add_text(*command, "--report", options->page, "FILE", "an HTML page with pictures");
-    add_text(*command, "--mask", options->masks, "F[,F...]", "pictures, bright where not to look");
+    add_text(*command, "--photo-mask", options->masks, "F[,F...]",
+             "pictures, bright where not to look");
     command->add_flag("--merge", options->merge,
                       "the photographs are exposures of one scene: merge them first");
     add_text(*command, "--photo-width", options->width_mm, "MM",

@@ -282,13 +282,12 @@ void judge(const FitOutcome& outcome, FitReport& report) {
     if (!report.usable) {
         report.verdict = fmt::format(
             "This prescription does not explain the photograph: {:.0f} % of the samples are "
-            "further "
-            "off than {:.3g} standard deviations after the fit (chi-squared per value {:.3g}), and "
-            "{:.0f} % of the flare is explained. The numbers below are the best of a wrong model: "
-            "do "
-            "not use them. Check lens, focal length, light position, sensor size and orientation.",
-            100.0 * report.outliers, outcome.loss_scale, reduced,
-            100.0 * std::max(0.0, report.explained_after));
+            "further off than {:.3g} standard deviations after the fit (chi-squared per value "
+            "{:.3g}). The numbers below are the best of a wrong model: do not use them. Check "
+            "lens, "
+            "focal length, light position, sensor size and orientation.",
+            100.0 * report.outliers, outcome.loss_scale, reduced);
+        return;
     } else if (reduced > well) {
         report.verdict = fmt::format(
             "The lens explains {:.1f} % of the flare, but not within the noise: chi-squared per "

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -28,6 +29,8 @@ constexpr double settled = 0.02;
 constexpr int most_linearisations = 4;
 constexpr double field_step_deg = 0.02;
 constexpr double geometry_step = 0.3;  ///< of a prior
+/// First guesses for all λ0 together, nm.
+constexpr std::array<double, 5> alike_nm = {550.0, 490.0, 620.0, 440.0, 690.0};
 constexpr int start_iterations = 8, final_iterations = 30, jump_iterations = 4;
 /// A jump must lower the cost by so much to be more than rounding.
 constexpr double least_gain = 0.5;
@@ -491,8 +494,10 @@ class Fit {
                 const FitParameter& each = layout_.coatings[p];
                 const double low = (each.lower - each.start) / each.prior,
                              high = (each.upper - each.start) / each.prior;
-                // All towards one side, all to the other, then each for itself.
-                const double to = start == 1 ? 0.8 : start == 2 ? -0.8 : 1.2 * uniform(random);
+                // All λ0 alike, as one shop makes them, then each for itself.
+                double to = 1.2 * uniform(random);
+                if (each.kind == FitKind::center && start <= static_cast<int>(alike_nm.size()))
+                    to = (alike_nm[static_cast<std::size_t>(start) - 1] - each.start) / each.prior;
                 evaluator_->x[p] = std::clamp(to, 0.95 * low, 0.95 * high);
             }
             evaluator_->start_gains();

@@ -18,6 +18,8 @@ constexpr int most_bands = 24;
 constexpr double level_share = 0.45, grid_share = 0.2, band_share = 0.2, weight_share = 0.15;
 /// Singular cells are split where what they get wrong is more than this share of the allowance.
 constexpr double singular_share = 0.0;
+/// For OpenGL, in all ghosts that have this many times the light of their allowance.
+constexpr double split_above = 5.0;
 constexpr int split_cells = 4;  ///< across a singular cell
 /// Polarisation is traced anew where interpolating it costs more than this share of what weights
 /// may.
@@ -279,7 +281,11 @@ MeshNodes GhostPlanner::landed(const ProbedGhost& ghost) const {
 
 GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
     PlannedGhost& planned = ghost.planned;
-    const Fineness chosen = choose(ghost);
+    Fineness chosen = choose(ghost);
+    // Margins are interpolated pixel by pixel there: beside failing rays that is worse than what
+    // the estimate knows.
+    chosen.split = chosen.split || (ghost.errors.singular_mm2 > 0.0 &&
+                                    planned.flux_mm2 > split_above * planned.allowance_mm2);
     planned.cells = chosen.cells;
     planned.bands = chosen.bands;
     choose_level(chosen, ghost.errors.contrast_mm2, planned);

@@ -104,7 +104,7 @@ std::optional<std::vector<ProbedGhost>> probe_all(const FlareScene& scene,
     double budget_mm2 = left_out_share * request.tolerance * light_mm2;
     std::size_t end = order.size();
     // What is asked for by name, or by the share of each, is not left out.
-    while (request.only.empty() && end > strong) {
+    while (request.only.empty() && end > strong && budget_mm2 > 0.0) {
         PlannedGhost& weakest = ghosts[order[end - 1]].planned;
         if (weakest.bound_mm2 > budget_mm2 ||
             std::ranges::find(request.highlighted, weakest.path) != request.highlighted.end())
