@@ -56,6 +56,14 @@ std::string processor() {
     return "unknown processor";
 }
 
+/// Work waiting for the processor in the last minute, as Linux counts it; times of a busy machine
+/// are long.
+std::string load() {
+    std::ifstream file("/proc/loadavg");
+    std::string one_minute;
+    return file >> one_minute ? ", load " + one_minute : "";
+}
+
 std::string today() {
     return fmt::format(
         "{:%Y-%m-%d}",
@@ -96,8 +104,8 @@ void run(const AccuracyOptions& options) {
     AccuracyRun all{
         .command = "ghostlight-cli accuracy",
         .spectrum = name(request.spectrum),
-        .machine = fmt::format("{}, {} threads, {}, compiler {}", processor(),
-                               default_thread_count(), instruction_set_name(), __VERSION__),
+        .machine = fmt::format("{}, {} threads, {}, compiler {}{}", processor(),
+                               default_thread_count(), instruction_set_name(), __VERSION__, load()),
         .date = today(),
         .cases = {}};
     for (const std::string& lens : options.lenses) all.command += " " + lens;

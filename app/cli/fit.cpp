@@ -71,7 +71,18 @@ LightDirection light_of(const std::string& text, FitPhoto& photo, const OpticalS
         const auto azimuth = parts.size() > 2 ? parse_number(parts[2]) : std::optional(90.0);
         if (parts.size() > 3 || !field || !azimuth || std::abs(*field) > 90.0)
             throw bad_value("--light", text, "deg:FIELD or deg:FIELD:AZIMUTH, degrees");
-        return {*field, *azimuth};
+        const LightDirection light{*field, *azimuth};
+        if (const auto at = image_of_light(system, light)) {
+            // Where the photograph has it, its rotation undone.
+            const double pitch_mm = photo.place.pitch_mm(photo.photo);
+            const double c = std::cos(photo.place.rotation_rad),
+                         s = std::sin(photo.place.rotation_rad);
+            mask_disc(photo.photo,
+                      photo.place.axis_column + (c * at->x_mm + s * at->y_mm) / pitch_mm,
+                      photo.place.axis_row + (c * at->y_mm - s * at->x_mm) / pitch_mm,
+                      0.01 * photo.photo.width_px + 2.0);
+        }
+        return light;
     }
     double column = 0.0, row = 0.0;
     if (text == "auto") {

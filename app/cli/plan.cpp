@@ -6,6 +6,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/output.h"
+#include "app/cli/plan_omissions.h"
 #include "app/cli/report.h"
 #include "app/cli/spectrum_option.h"
 #include "core/flare/plan_proof.h"
@@ -19,9 +20,12 @@ struct PlanOptions {
     LightOptions light{.field = "0"};
     SpectrumOptions spectrum;
     std::string tolerance = "0.02", width = "1280", cells;
-    bool certify = false;
+    bool certify = false, measure = false;
     OutputOptions output;
 };
+
+/// What the reference may err by that a picture is measured with, of its tolerance.
+constexpr double reference_share = 0.25;
 
 std::string fate_name(GhostFate fate) {
     switch (fate) {
@@ -127,6 +131,16 @@ void run(const PlanOptions& options) {
              ghost.fate == GhostFate::nothing_passes ? Cell() : Cell(ghost.bound_mm2)});
         if (proof) report.table.rows.back().push_back(proof->ghosts[g].missed_flux_bound_mm2());
     }
+    std::optional<MeasuredPlan> measured;
+    if (options.measure) {
+        ProgressLine progress("measuring against the reference");
+        request.spectrum = scene.spectrum;
+        measured = measure_plan(loaded.lens, request, image, reference_share * request.tolerance,
+                                {}, [&](double share) { progress(share); });
+    }
+    const PlanReport omitted = plan_report(scene, plan, proof ? &*proof : nullptr);
+    report.heading += omissions_text(omitted, measured);
+    for (auto& field : omission_fields(omitted, measured)) report.request.push_back(field);
     write_report(report, options.output);
     print_notes(loaded.notes, Note::Severity::warning);
 }
@@ -150,9 +164,12 @@ void add_plan(CLI::App& program) {
     add_text(
         *command, "--cells", options->cells, "N",
         "with --certify: cells that a ghost's proof may take at each wavelength; default 1000");
+    command->add_flag("--measure", options->measure,
+                      "the picture's true error, by a reference; takes from seconds to minutes");
     add_output(*command, options->output);
     command->footer(R"(Examples:
   ghostlight-cli plan tessar_brendel_100_f2.8 --field 10
+  ghostlight-cli plan tessar_brendel_100_f2.8 --field 10 --width 320 --measure
   ghostlight-cli plan nikon_zoom_80_200_f2.8 --field 8 --spectrum D65 --tolerance 0.04 --csv
   ghostlight-cli plan cooke_triplet_50_f5 --field 10 --certify)");
     command->callback([options] { run(*options); });

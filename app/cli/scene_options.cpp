@@ -145,7 +145,7 @@ void set_artistic(const SceneOptions& options, const LoadedLens& loaded, Scene& 
                   [](double value) { return value >= 0.0 && value <= most_offset_mm; });
     if (!options.seed.empty())
         artistic.seed = static_cast<std::uint32_t>(integer_value(
-            "--seed", options.seed, "a whole number from 0 to 4294967295", 0, 4294967295L));
+            "--jitter-seed", options.seed, "a whole number from 0 to 4294967295", 0, 4294967295L));
     if (options.styles.empty()) return;
     const OpticalSystem system =
         compile(loaded.lens, reference_wavelength_nm(scene.light().spectrum));
@@ -244,7 +244,7 @@ void add_scene(CLI::App& command, SceneOptions& options) {
     add_text(command, "--jitter", options.jitter, "MM",
              "every ghost moved by a normal deviate of this size")
         ->group(artistic);
-    add_text(command, "--seed", options.seed, "N", "of the jitter; default 1")->group(artistic);
+    add_text(command, "--jitter-seed", options.seed, "N", "of the jitter; default 1")->group(artistic);
 }
 
 Scene scene_of(const SceneOptions& options, const LoadedLens& loaded) {

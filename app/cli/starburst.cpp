@@ -105,7 +105,7 @@ void add_starburst(CLI::App& program) {
   ghostlight-cli starburst tessar_brendel_100_f2.8 --field 5 --f-number 11 --blades 7 \
       --spectrum D65 --exposure 8 -o starburst.png
   ghostlight-cli starburst tessar_brendel_100_f2.8 --f-number 8 --blades 6 --dust 0.01 \
-      --scratches 20 --seed 4 --spectrum D65 -o dirty.exr)");
+      --scratches 20 --dirt-seed 4 --spectrum D65 -o dirty.exr)");
     command->callback([options] { run(*options); });
 }
 

@@ -43,7 +43,7 @@ void override_dirt(StopDirt& dirt, const StopOptions& options) {
                                         [](double share) { return share >= 0.0 && share <= 1.0; });
     if (!options.seed.empty())
         dirt.seed = static_cast<int>(integer_value(
-            "--seed", options.seed, "a whole number from 0 to 1000000000", 0, 1'000'000'000));
+            "--dirt-seed", options.seed, "a whole number from 0 to 1000000000", 0, 1'000'000'000));
 }
 
 }  // namespace
@@ -63,7 +63,7 @@ void add_stop(CLI::App& command, StopOptions& options, const std::string& group)
         "how many scratches, and their least and largest width");
     add("--fingerprint", options.fingerprint, "SHARE",
         "a fingerprint on the stop whose ridges take this share of the light");
-    add("--seed", options.seed, "N", "another number scatters the same dirt otherwise");
+    add("--dirt-seed", options.seed, "N", "another number scatters the same dirt otherwise");
 }
 
 void override_stop_shape(Stop& stop, const StopOptions& options) {

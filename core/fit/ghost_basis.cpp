@@ -233,6 +233,9 @@ SplitGrid<float> traced_grid(const FitScene& scene, const OpticalSystem& system,
 FilmRay film_ray(const FitScene& scene, const GhostPath& path, const BeamFrame& frame,
                  const std::array<double, 2>& place, const std::vector<bool>& seen) {
     FilmRay found;
+    const Prescription& lens = scene.lens.lens;
+    const bool absorbs = lens.internal_transmittance;
+    if (absorbs) found.passed.assign(scene.samples.size(), 1.0);
     std::vector<std::vector<double>> cosines;  // node by node
     for (std::size_t node = 0; node < scene.geometry.size(); ++node) {
         const auto trace = trace_path<double>(scene.geometry[node], path);
@@ -242,8 +245,22 @@ FilmRay film_ray(const FitScene& scene, const GhostPath& path, const BeamFrame& 
         Vec3<double> s(frame.e1.x, frame.e1.y, frame.e1.z);
         auto& own = cosines.emplace_back();
         std::size_t k = 0;
+        auto absorb = [&](const Vec3<double>& start, double gap_mm, const Medium& medium) {
+            if (!absorbs || node != scene.main) return;
+            const Vec3<double>& end = ray.position;
+            const double length_mm = std::sqrt(
+                (end.x - start.x) * (end.x - start.x) + (end.y - start.y) * (end.y - start.y) +
+                (end.z - start.z - gap_mm) * (end.z - start.z - gap_mm));
+            for (std::size_t w = 0; w < scene.samples.size(); ++w)
+                found.passed[w] *=
+                    internal_transmittance(medium, scene.samples[w].wavelength_nm, length_mm);
+        };
         for (const TraceStep<double>& step : trace.steps) {
+            const Vec3<double> start = ray.position;
             const auto meeting = meet(step, trace.aspheric.data(), 1.0, ray);
+            const auto row = static_cast<std::size_t>(step.surface);
+            absorb(start, step.gap_mm,
+                   step.sense > 0.0 ? medium_before(lens, row) : lens.surfaces[row].medium_after);
             const Vec3<double> before = ray.direction;
             turn(step, meeting, ray);
             if (!seen[k++]) continue;

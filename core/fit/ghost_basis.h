@@ -42,6 +42,7 @@ struct FilmEvent {
 /// One ray that stands for its part of the pupil: what films need of it.
 struct FilmRay {
     std::vector<double> cosines;  ///< of incidence, event by event, wavelengths running faster
+    std::vector<double> passed;   ///< by the glasses, wavelength by wavelength; empty: all
     std::vector<double> turn_cos, turn_sin;  ///< of the frame of s and p into each event's plane
 };
 

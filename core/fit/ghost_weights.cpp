@@ -284,7 +284,9 @@ void GhostWeights::coefficients(const GhostBasis& basis, std::vector<double>& va
             double weight = 0.0;
             for (const auto& row : state)
                 for (const Number& each : row) weight += each.re * each.re + each.im * each.im;
-            weight *= 0.5;
+            // What the glasses let pass scales the weight and its slopes.
+            const double passed = ray.passed.empty() ? 1.0 : ray.passed[k];
+            weight *= 0.5 * passed;
             if (slopes != nullptr) {
                 // dW = Re Σ conj(G) dP, G = P at the end; backwards G = Rᵀ conj(D) G.
                 std::ranges::fill(by_parameter, 0.0);
@@ -330,6 +332,7 @@ void GhostWeights::coefficients(const GhostBasis& basis, std::vector<double>& va
             }
             const Rgb& color = scene_.colors[k];
             const double channel[3] = {color.r, color.g, color.b};
+            for (double& each : by_parameter) each *= passed;
             for (std::size_t node = 0; node < basis.nodes; ++node) {
                 const double share = basis.nodes == 1 ? 1.0 : scene_.nodes[k][node];
                 for (std::size_t t = 0; t < pupil_terms; ++t) {

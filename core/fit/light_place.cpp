@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/error.h"
@@ -58,17 +59,18 @@ LightDirection light_imaged_at(const OpticalSystem& system, const SensorPoint& p
         low = high;
         high = std::min(widest_deg, 1.5 * high);
     }
-    if (!(radius_at(high) >= radius_mm) || !std::isfinite(radius_at(0.5 * (low + high))))
-        throw Error({.problem = "no light through this lens makes an image there",
-                     .file = {},
-                     .where = {},
-                     .found = fmt::format("{:.3f} mm from the axis", radius_mm),
-                     .expected = "a place inside the lens's image circle; --sensor, --crop and the "
-                                 "lens may not belong to this photograph"});
     for (int k = 0; k < 40 && high - low > 1e-9; ++k) {
         const double middle = 0.5 * (low + high);
         (radius_at(middle) < radius_mm ? low : high) = middle;
     }
+    // At the edge of what passes, the bisection ends where there is no such image.
+    if (!(std::abs(radius_at(low) - radius_mm) < 0.01 * radius_mm + 0.05))
+        throw Error({.problem = "no light through this lens makes an image there",
+                     .file = {},
+                     .where = {},
+                     .found = fmt::format("{:.3f} mm from the axis", radius_mm),
+                     .expected = "a place inside the lens's image circle; --sensor, --photo-width "
+                                 "or the lens may not belong to this photograph"});
     return {0.5 * (low + high), azimuth_deg};
 }
 

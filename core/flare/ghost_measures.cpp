@@ -47,6 +47,38 @@ double bend_px(const MeshNodes& nodes, const PixelFrame& frame) {
     return count > 0 ? 0.25 * std::sqrt(square / count) : 0.0;
 }
 
+double rim_px(const MeshNodes& nodes, const PixelFrame& frame) {
+    const int side = nodes.cells + 1;
+    double sum = 0.0;
+    int count = 0;
+    for (int j = 1; j + 1 < side; ++j)
+        for (int i = 1; i + 1 < side; ++i) {
+            const int k = j * side + i;
+            if (!is_within(nodes, idx(k), near_rim)) continue;
+            const auto at = [&](const std::vector<float>& values, int n) {
+                return static_cast<double>(values[idx(n)]);
+            };
+            const double du_x = 0.5 * (at(nodes.column, k + 1) - at(nodes.column, k - 1));
+            const double du_y = 0.5 * (at(nodes.row, k + 1) - at(nodes.row, k - 1));
+            const double dv_x = 0.5 * (at(nodes.column, k + side) - at(nodes.column, k - side));
+            const double dv_y = 0.5 * (at(nodes.row, k + side) - at(nodes.row, k - side));
+            const double size_px = std::min(std::sqrt(std::abs(du_x * dv_y - du_y * dv_x)),
+                                            static_cast<double>(frame.width_px));
+            for (const auto& c : nodes.clearances) {
+                const double u = 0.5 * (at(c, k + 1) - at(c, k - 1));
+                const double v = 0.5 * (at(c, k + side) - at(c, k - side));
+                const double slope = std::hypot(u, v);
+                // Only cells that the rim goes through.
+                if (!(slope > 0.0) || std::abs(at(c, k)) > slope) continue;
+                const double bend = at(c, k + 1) + at(c, k - 1) + at(c, k + side) +
+                                    at(c, k - side) - 4.0 * at(c, k);
+                sum += std::min(1.0, std::abs(bend) / (8.0 * slope)) * size_px;
+                ++count;
+            }
+        }
+    return count > 0 ? sum / count : 0.0;
+}
+
 double shift_px(const MeshNodes& a, const MeshNodes& b) {
     double square = 0.0;
     int count = 0;

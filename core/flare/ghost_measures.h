@@ -19,6 +19,10 @@ inline constexpr double near_rim = -0.15;
 /// near the frame: what a grid twice as coarse gets wrong, hence four times what this one does.
 double bend_px(const MeshNodes& nodes, const PixelFrame& frame);
 
+/// How far the chords that a grid draws a rim by are from it in their middle, mean over the cells
+/// that a rim goes through. Falls fourfold on doubling the grid.
+double rim_px(const MeshNodes& nodes, const PixelFrame& frame);
+
 /// RMS distance between the nodes of two grids on the sensor, over what passes both.
 double shift_px(const MeshNodes& a, const MeshNodes& b);
 

@@ -47,6 +47,13 @@ PlanReport plan_report(const FlareScene& scene, const FlarePlan& plan, const Pla
     const OfFate left_out = sum_of(plan, proof, GhostFate::left_out);
     add("ghosts left out", "the bound of their light is below their share of the error",
         left_out.ghosts, left_out.bound_mm2, true);
+    const OfFate folded = sum_of(plan, proof, GhostFate::folded);
+    double veil_mm2 = 0.0;
+    for (const PlannedGhost& ghost : plan.ghosts)
+        if (ghost.fate == GhostFate::folded) veil_mm2 += ghost.flux_mm2;
+    // Light in the wrong place is missing from the right one too.
+    add("ghosts folded into the veil", "too faint and broad to be seen by themselves",
+        folded.ghosts, 2.0 * veil_mm2, false);
     const OfFate beside = sum_of(plan, proof, GhostFate::off_sensor);
     add("ghosts beside the sensor", "none of the light that was found lands on it", beside.ghosts,
         missed(beside), true);
@@ -74,6 +81,14 @@ PlanReport plan_report(const FlareScene& scene, const FlarePlan& plan, const Pla
         add(fmt::format("of these, with {} wavelengths merged into bands", scene.samples.size()),
             "colour shifts them by less than their share", merged, std::nullopt, false);
     }
+    if (plan.not_modelled > 0.0)
+        report.omissions.push_back(
+            {.what = "ghosts of four and more reflections",
+             .why = fmt::format("no picture has them; about {:.2g} % of the light of two",
+                                100.0 * plan.not_modelled),
+             .ghosts = 0,
+             .bound_mm2 = std::nullopt,
+             .proven = false});
     return report;
 }
 

@@ -17,6 +17,8 @@ constexpr int shift_cells = 6;           ///< of the grids that lateral colour i
 /// is at rims, where chords follow the bend. Calibrated on all bundled lenses, see
 /// docs/benchmarks.md.
 constexpr double grid_factor = 0.3;
+/// Of a chord's height: unbiased chords are off by a quarter of it on average.
+constexpr double rim_factor = 0.25;
 /// Of the light in singular cells: a root drawn as a line is off by as much, over a cell.
 constexpr double singular_factor = 0.3;
 /// Of the shift between the outer geometry wavelengths times the contrast: most of the light lies
@@ -127,7 +129,8 @@ void GhostPlanner::look(const MirrorGrid& first, const MeshNodes& nodes, ProbedG
     if (scene_.coating_model == CoatingModel::exact)
         errors.singular_mm2 = singular_factor * light_in(singular_cells(first, nodes), nodes);
     // The error of a bilinear map falls fourfold on doubling the grid.
-    errors.grid_mm2 = grid_factor * contrast * bend_px(nodes, frame);
+    errors.grid_mm2 =
+        contrast * (grid_factor * bend_px(nodes, frame) + rim_factor * rim_px(nodes, frame));
     if (scene_.geometry.size() > 1)
         errors.merging_mm2 = merging_factor * contrast * shift_of_colors_px(ghost.planned);
     errors.weight_mm2 = ghost.planned.flux_mm2 *

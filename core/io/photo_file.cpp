@@ -172,7 +172,7 @@ Photo read_photo(const std::filesystem::path& file) {
         });
         const auto at_highest = std::ranges::count(photo.rgb, highest);
         // Several pixels of exactly the largest value are a clip.
-        photo.saturation = at_highest > 8 ? static_cast<double>(highest) * (1.0 - 1e-6)
+        photo.saturation = at_highest > 3 ? static_cast<double>(highest) * (1.0 - 1e-6)
                                           : std::numeric_limits<double>::infinity();
     }
     photo.rgb = upright_picture(photo.rgb, photo.width_px, photo.height_px, 3);

@@ -156,6 +156,8 @@ double StopPicture::open_at(double x, double y) const {
 }
 
 double StopPicture::distance_at(double x, double y) const {
+    // A ray that failed before has no place in the stop.
+    if (!std::isfinite(x) || !std::isfinite(y)) return -1.0;
     const double beyond =
         std::hypot(std::max(0.0, std::abs(x) - 1.0), std::max(0.0, std::abs(y) - 1.0));
     const double inside = bilinear(distance_, x, y);

@@ -49,7 +49,9 @@ TEST_F(StopImageFile, EightAndSixteenBitsAlphaAndColour) {
     }
     // Open where it is white and opaque; the mean of the colours.
     const StopImage image = read_stop_image(
-        write("alpha.png", 2, 1, 4, OIIO::TypeDesc::UINT8, {1, 1, 1, 1, /**/ 1, 1, 1, 0}));
+        write("alpha.png", 4, 2, 4, OIIO::TypeDesc::UINT8,
+              {1, 1, 1, 1, /**/ 1, 1, 1, 1, /**/ 1, 1, 1, 0, /**/ 1, 1, 1, 0,
+               1, 1, 1, 1, /**/ 1, 1, 1, 1, /**/ 1, 1, 1, 0, /**/ 1, 1, 1, 0}));
     EXPECT_NEAR(image.picture->open_at(-0.9, 0.2), 1.0, 1e-3);
     EXPECT_NEAR(image.picture->open_at(0.9, 0.2), 0.0, 1e-3);
     const StopImage red =
