@@ -53,7 +53,7 @@ TEST_F(CommandLineStarburst, DirtDimsItAndTheSeedMakesIt) {
     const std::string once = read_file(folder / "starburst.exr");
     starburst({"--f-number", "8", "--dust", "0.1:0.05:0.1", "--scratches", "5"});
     EXPECT_EQ(read_file(folder / "starburst.exr"), once);
-    starburst({"--f-number", "8", "--dust", "0.1:0.05:0.1", "--scratches", "5", "--seed", "2"});
+    starburst({"--f-number", "8", "--dust", "0.1:0.05:0.1", "--scratches", "5", "--dirt-seed", "2"});
     EXPECT_NE(read_file(folder / "starburst.exr"), once);
 }
 
@@ -78,7 +78,7 @@ TEST_F(CommandLineStarburst, WhatIsWrongIsNamed) {
                                         {"--dust", "0.1:0.2:0.1"},
                                         {"--scratches", "-1"},
                                         {"--fingerprint", "2"},
-                                        {"--seed", "1e99"},
+                                        {"--dirt-seed", "1e99"},
                                         {"--smoothing", "-3"},
                                         {"--width", "1"}}) {
         const std::string message = refusal({option, value});
