@@ -379,7 +379,7 @@ void StopPanel::request() {
     }
     try {
         Prescription lens = document_.configured_lens();
-        const Spectrum spectrum = document_.scene().spectrum;
+        const Spectrum spectrum = document_.scene().light().spectrum;
         if (lens == asked_ && spectrum == asked_spectrum_) {
             return;  // the light moves, and nothing here changes
         }
