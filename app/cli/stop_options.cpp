@@ -55,7 +55,7 @@ void add_stop(CLI::App& command, StopOptions& options, const std::string& group)
     add("--blades", options.blades, "N", "blades of the stop: 0 (round), or 3 to 1000");
     add("--blade-rotation", options.rotation, "DEG", "turns the stop and its image, degrees");
     add("--blade-curvature", options.curvature, "X", "0 straight blades, 1 the full circle");
-    add("--stop-mask", options.mask, "IMAGE|none",
+    add("--stop-image", options.mask, "IMAGE|none",
         "an image over the stop's opening, white where it is open; none: without the\nlens file's");
     add("--dust", options.dust, "SHARE[:MM:MM]",
         "share of the stop that specks cover, and their least and largest diameter");
@@ -83,7 +83,7 @@ void override_stop_shape(Stop& stop, const StopOptions& options) {
     if (options.mask == "none")
         stop.image.reset();
     else if (!options.mask.empty())
-        stop.image = read_option("--stop-mask", [&] { return read_stop_image(options.mask); });
+        stop.image = read_option("--stop-image", [&] { return read_stop_image(options.mask); });
     override_dirt(stop.dirt, options);
 }
 

@@ -468,7 +468,7 @@ class Ringing {
                 const double u = mix(p.u, q.u, r.u), v = mix(p.v, q.v, r.v);
                 const double light = mix(p.light, q.light, r.light);
                 const Color change = rung.report.propagated
-                                         ? mask_change(rung, u, v)
+                                         ? mask_change(rung, u, v, ux, uy, vx, vy)
                                          : rim_change(rung, u, v, ux, uy, vx, vy);
                 const std::size_t pixel = idx(row) * idx(frame_.width_px) + idx(column);
                 image.irradiance[pixel] += static_cast<float>(light) * change[channels - 1];
@@ -498,35 +498,26 @@ class Ringing {
         return change;
     }
 
-    Color mask_change(const Rung& rung, double u, double v) const {
+    Color mask_change(const Rung& rung, double u, double v, double ux, double uy, double vx,
+                      double vy) const {
         Color change{};
-        const MaskRaster& raster = *rung.raster;
-        double open = 0.0;
-        if (std::abs(u) < 1.0 && std::abs(v) < 1.0) {
-            const double column =
-                std::clamp((u + 1.0) / raster.pitch() - 0.5, 0.0, raster.across - 1.001);
-            const double row =
-                std::clamp((v + 1.0) / raster.pitch() - 0.5, 0.0, raster.across - 1.001);
-            const int i = static_cast<int>(column), j = static_cast<int>(row);
-            auto at = [&](int a, int b) {
-                return static_cast<double>(raster.open[idx((j + b) * raster.across + i + a)]);
-            };
-            open = std::lerp(std::lerp(at(0, 0), at(1, 0), column - i),
-                             std::lerp(at(0, 1), at(1, 1), column - i), row - j);
+        // What the picture holds: the mask without its dirt, its rim as pixels cover it.
+        double lit = 1.0;
+        if (rung.stop.picture &&
+            !stop_passes(rung.stop, u * rung.stop.semi_diameter_mm, v * rung.stop.semi_diameter_mm))
+            lit = 0.0;
+        for (int e = 0; e < edge_count(rung.stop); ++e) {
+            const Edge edge = edge_at(rung.stop, e, u, v);
+            const double slope =
+                std::abs(edge.nx * ux + edge.ny * vx) + std::abs(edge.nx * uy + edge.ny * vy);
+            lit *= coverage(edge.depth, slope * rung.rim_px);
         }
-        // What the picture holds: the mask without its dirt.
-        const bool lit = open > 0.0 && stop_passes_clean(rung.stop, u, v);
         for (std::size_t p = 0; p < rung.masks.size(); ++p) {
             const double irradiance = rung.masks[p].at(u, v);
             for (std::size_t c = 0; c < channels; ++c)
-                change[c] +=
-                    static_cast<float>(rung.mask_shares[p][c] * (irradiance - (lit ? 1.0 : 0.0)));
+                change[c] += static_cast<float>(rung.mask_shares[p][c] * (irradiance - lit));
         }
         return change;
-    }
-
-    static bool stop_passes_clean(const StopMask& stop, double u, double v) {
-        return stop_passes(stop, u * stop.semi_diameter_mm, v * stop.semi_diameter_mm);
     }
 };
 

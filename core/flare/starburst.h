@@ -74,8 +74,9 @@ class StarburstTable {
     /// Flux below each sector of a ring: rings × (sectors + 1).
     std::vector<Color> below_;
     std::array<double, channels> inside_{}, flux_{};
+    std::vector<double> edge_mm_;          ///< of the rings, one more than there are
+    std::vector<double> sectors_per_mm2_;  ///< of each ring
 
-    double radius_mm(double ring) const;
     double ring_of(double radius_mm) const;
     Color flux_between(int ring, double from_sector, double to_sector) const;
     Color density(double ring, double from_sector, double to_sector) const;

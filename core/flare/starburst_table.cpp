@@ -69,6 +69,14 @@ StarburstTable::StarburstTable(const std::vector<PolarPattern>& patterns,
     for (const PolarPattern& pattern : patterns) most_rings = std::max(most_rings, pattern.rings);
     rings_ = most_rings + static_cast<int>(shifts.size()) - 1;
     below_.resize(idx(rings_) * (sectors + 1));
+    for (int ring = 0; ring <= rings_; ++ring)
+        edge_mm_.push_back(first_radius_mm_ *
+                           std::exp2(static_cast<double>(ring) / PolarPattern::rings_per_octave));
+    for (int ring = 0; ring < rings_; ++ring) {
+        const double inner = edge_mm_[idx(ring)], outer = edge_mm_[idx(ring) + 1];
+        // Sectors of half a turn hold two areas, opposite each other.
+        sectors_per_mm2_.push_back(sectors / (pi * (outer * outer - inner * inner)));
+    }
     const double smoothed = std::clamp(
         rad_from_deg(smoothing_deg) / patterns.front().span_rad() * sectors, 0.0, sectors * 1.0);
     parallel_for(idx(rings_), threads, {}, [&](std::size_t ring) {
@@ -101,9 +109,6 @@ StarburstTable::StarburstTable(const std::vector<PolarPattern>& patterns,
     });
 }
 
-double StarburstTable::radius_mm(double ring) const {
-    return first_radius_mm_ * std::exp2(ring / PolarPattern::rings_per_octave);
-}
 double StarburstTable::ring_of(double radius) const {
     return PolarPattern::rings_per_octave * std::log2(radius / first_radius_mm_);
 }
@@ -134,12 +139,8 @@ StarburstTable::Color StarburstTable::density(double ring, double from, double t
     for (int r = low; r <= low + 1; ++r) {
         if (r < 0 || r >= rings_) continue;
         const double share = r == low ? 1.0 - (ring - low) : ring - low;
-        const double inner = radius_mm(r), outer = radius_mm(r + 1.0);
-        // Sectors of half a turn hold two areas.
-        const double area = (half_turn_ ? 2.0 : 1.0) * 0.5 * (outer * outer - inner * inner) *
-                            (to - from) * (half_turn_ ? pi : 2.0 * pi) / sectors;
         const Color flux = flux_between(r, from, to);
-        const auto scale = static_cast<float>(share / area);
+        const auto scale = static_cast<float>(share * sectors_per_mm2_[idx(r)] / (to - from));
         for (std::size_t c = 0; c < channels; ++c) sum[c] += scale * flux[c];
     }
     return sum;
@@ -152,15 +153,17 @@ StarburstTable::Color StarburstTable::mean_at(double radius, double turn_rad,
     const double sector = turn_rad * per_rad;
     const double half = std::max(0.5, 0.5 * pitch_mm / radius * per_rad);
     const double inner = radius - 0.5 * pitch_mm, outer = radius + 0.5 * pitch_mm;
+    // Where a pixel spans less than a ring, between the middles of two.
+    constexpr double ring_ratio = std::numbers::ln2 / PolarPattern::rings_per_octave;
+    if (pitch_mm < ring_ratio * radius)
+        return density(ring_of(radius) - 0.5, sector - half, sector + half);
     const double first = ring_of(inner), last = ring_of(outer);
-    if (last - first < 1.0) return density(ring_of(radius) - 0.5, sector - half, sector + half);
     Color sum{};
     const double turn = 2.0 * half / per_rad;
     const double area = (half_turn_ ? 2.0 : 1.0) * 0.5 * (outer * outer - inner * inner) * turn;
     for (int r = std::max(0, static_cast<int>(std::floor(first))); r < last && r < rings_; ++r) {
-        const double low = std::max(inner, radius_mm(r)),
-                     high = std::min(outer, radius_mm(r + 1.0));
-        const double from = radius_mm(r), to = radius_mm(r + 1.0);
+        const double from = edge_mm_[idx(r)], to = edge_mm_[idx(r) + 1];
+        const double low = std::max(inner, from), high = std::min(outer, to);
         const auto part =
             static_cast<float>((high * high - low * low) / (to * to - from * from) / area);
         const Color flux = flux_between(r, sector - half, sector + half);
@@ -193,8 +196,8 @@ void StarburstTable::draw_core(const Placement& placement, const PixelFrame& fra
     put(0.0, 0.0, centre);
     const double span = half_turn_ ? pi : 2.0 * pi;
     const int repeats = half_turn_ ? 2 : 1;
-    for (int ring = 0; ring < rings_ && radius_mm(ring) < core_mm; ++ring) {
-        const double inner = radius_mm(ring), whole = radius_mm(ring + 1.0);
+    for (int ring = 0; ring < rings_ && edge_mm_[idx(ring)] < core_mm; ++ring) {
+        const double inner = edge_mm_[idx(ring)], whole = edge_mm_[idx(ring) + 1];
         const double outer = std::min(whole, core_mm);
         const double fine = frame.pitch_mm / core_samples;
         const int radial = std::max(1, static_cast<int>(std::ceil((outer - inner) / fine)));
@@ -229,7 +232,7 @@ bool StarburstTable::draw(const Placement& placement, const PixelFrame& frame, u
     const double pitch = frame.pitch_mm / std::sqrt(stretch);
     const double core_mm = std::max(core_px * pitch, around_blur * blur_mm_);
     const auto scale = static_cast<float>(placement.gain / stretch);
-    const double last_mm = radius_mm(rings_);
+    const double last_mm = edge_mm_.back();
     const bool finished = parallel_for(
         (height + rows_together - 1) / rows_together, threads, stop, [&](std::size_t block) {
             for (std::size_t row = block * rows_together;
@@ -246,7 +249,7 @@ bool StarburstTable::draw(const Placement& placement, const PixelFrame& frame, u
                     const double i = static_cast<double>(column) + 0.5;
                     const double j = static_cast<double>(row) + 0.5;
                     const glm::dvec2 at = own(i, j);
-                    const double radius = std::hypot(at.x, at.y);
+                    const double radius = std::sqrt(at.x * at.x + at.y * at.y);
                     if (radius < core_mm - pitch || radius > last_mm) continue;
                     float share = scale;
                     if (radius < core_mm + pitch) {

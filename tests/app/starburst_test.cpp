@@ -53,7 +53,8 @@ TEST_F(CommandLineStarburst, DirtDimsItAndTheSeedMakesIt) {
     const std::string once = read_file(folder / "starburst.exr");
     starburst({"--f-number", "8", "--dust", "0.1:0.05:0.1", "--scratches", "5"});
     EXPECT_EQ(read_file(folder / "starburst.exr"), once);
-    starburst({"--f-number", "8", "--dust", "0.1:0.05:0.1", "--scratches", "5", "--seed", "2"});
+    starburst(
+        {"--f-number", "8", "--dust", "0.1:0.05:0.1", "--scratches", "5", "--dirt-seed", "2"});
     EXPECT_NE(read_file(folder / "starburst.exr"), once);
 }
 
@@ -61,7 +62,7 @@ TEST_F(CommandLineStarburst, MaskIsAnImage) {
     // A picture of the program's own: what it shows white is open.
     cli_output({"starburst", tessar(), "--f-number", "8", "--width", "64", "--exposure", "10",
                 "--out", file("mask.png")});
-    const Csv masked = starburst({"--f-number", "8", "--stop-mask", file("mask.png")});
+    const Csv masked = starburst({"--f-number", "8", "--stop-image", file("mask.png")});
     EXPECT_LT(masked.number(0, "flux_mm2"),
               0.5 * starburst({"--f-number", "8"}).number(0, "flux_mm2"));
     EXPECT_GT(masked.number(0, "flux_mm2"), 0.0);
@@ -78,14 +79,14 @@ TEST_F(CommandLineStarburst, WhatIsWrongIsNamed) {
                                         {"--dust", "0.1:0.2:0.1"},
                                         {"--scratches", "-1"},
                                         {"--fingerprint", "2"},
-                                        {"--seed", "1e99"},
+                                        {"--dirt-seed", "1e99"},
                                         {"--smoothing", "-3"},
                                         {"--width", "1"}}) {
         const std::string message = refusal({option, value});
         EXPECT_NE(message.find(option), std::string::npos) << message;
     }
-    EXPECT_NE(refusal({"--stop-mask", file("text.png")}).find("text.png"), std::string::npos);
-    EXPECT_NE(refusal({"--stop-mask", file("absent.png")}).find("absent.png"), std::string::npos);
+    EXPECT_NE(refusal({"--stop-image", file("text.png")}).find("text.png"), std::string::npos);
+    EXPECT_NE(refusal({"--stop-image", file("absent.png")}).find("absent.png"), std::string::npos);
 }
 
 TEST_F(CommandLineStarburst, RingingSaysWhichGhostsGotIt) {
