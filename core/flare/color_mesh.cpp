@@ -413,8 +413,11 @@ class Builder {
     void emit_shared(const Point& a, const Point& b, const Plane<C>& own, const Plane<C>& other) {
         const Plane<C> step = difference(own, other);
         // Beside a clipped cell the picture goes on smoothly.
-        if (own.is_set && other.is_set)
+        if (own.is_set && other.is_set) {
             mesh_.edge_contrast += facet_contrast * contrast_of(a, b, step);
+            mesh_.slope_contrast +=
+                std::abs(step.gx[C - 1] * (b.y - a.y) - step.gy[C - 1] * (b.x - a.x));
+        }
         emit(a, b, step);
     }
 

@@ -30,6 +30,9 @@ struct ColorMesh {
     /// Σ |step of the last channel's value across an edge| × length: what blurring by a pixel
     /// costs. In irradiance / E0 × px.
     double edge_contrast = 0.0;
+    /// Σ |step of that value's slope across an edge| × length, which is ∫ |∇²| over the ghost: what
+    /// blurring costs where it is smooth but uneven. In irradiance / E0.
+    double slope_contrast = 0.0;
     double area_px2 = 0.0;            ///< of all sheets near the frame
     std::size_t cells = 0;            ///< pieces drawn
     bool reaches_past_right = false;  ///< edges right of the frame have been left out

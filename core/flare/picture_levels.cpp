@@ -18,6 +18,11 @@ double blur_px(int level) {
     return level == 0 ? 0.0 : 0.4 * std::ldexp(1.0, level);
 }
 
+double blur_px2(int level) {
+    // Averaging over a pixel of 2^l and the linear interpolation after it: σ = 2^l / 2.
+    return level == 0 ? 0.0 : 0.125 * std::ldexp(1.0, 2 * level);
+}
+
 namespace {
 
 /// The two coarser pixels that a finer one lies between.

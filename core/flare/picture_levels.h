@@ -17,6 +17,8 @@ RasterSize level_size(const PixelFrame& frame, int level);
 /// What blurring by drawing at a level misplaces, as a share of edge_contrast (irradiance × px):
 /// a pixel's box and the tent that brings it up have a standard deviation of half a pixel.
 double blur_px(int level);
+/// The same of slope_contrast (irradiance): half the blur's variance along an axis, px².
+double blur_px2(int level);
 
 /// Adds the next coarser level to rows of `finer`, by linear interpolation: light is conserved.
 /// Rows count from the bottom of the finer picture, its margin included.

@@ -182,7 +182,8 @@ GhostPlanner::Fineness GhostPlanner::choose(const ProbedGhost& ghost) const {
     const double flux = std::max(planned.flux_mm2, 1e-300);
     // A ghost of full size leaves its share for blurring to the others.
     const bool full_size =
-        saturated(blur_px(1) * first.contrast_mm2, flux) > level_share * planned.allowance_mm2;
+        saturated(blur_px(1) * first.contrast_mm2 + blur_px2(1) * first.slopes_mm2, flux) >
+        level_share * planned.allowance_mm2;
     const double spread =
         full_size ? planned.allowance_mm2 / (1.0 - level_share) : planned.allowance_mm2;
     auto allowed = [&](double share) { return unsaturated(share * spread, flux); };
@@ -223,12 +224,14 @@ GhostPlanner::Fineness GhostPlanner::choose(const ProbedGhost& ghost) const {
     return chosen;
 }
 
-void GhostPlanner::choose_level(const Fineness& chosen, double contrast_mm2,
+void GhostPlanner::choose_level(const Fineness& chosen, double contrast_mm2, double slopes_mm2,
                                 PlannedGhost& planned) const {
     const double flux = std::max(planned.flux_mm2, 1e-300);
     const double allowed =
         std::max(planned.allowance_mm2 - chosen.error_mm2, level_share * planned.allowance_mm2);
-    auto level_error = [&](int level) { return saturated(blur_px(level) * contrast_mm2, flux); };
+    auto level_error = [&](int level) {
+        return saturated(blur_px(level) * contrast_mm2 + blur_px2(level) * slopes_mm2, flux);
+    };
     planned.level = 0;
     while (planned.level + 1 < picture_levels && level_error(planned.level + 1) <= allowed)
         ++planned.level;
@@ -267,7 +270,8 @@ void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
                    bands, split, planned, mesh);
     else
         draw_grids(geometry, probe, ghost.weights, bands, split, planned, mesh);
-    choose_level(chosen, mesh.edge_contrast * placement_.frame().pixel_area_mm2(), planned);
+    const double pixel_mm2 = placement_.frame().pixel_area_mm2();
+    choose_level(chosen, mesh.edge_contrast * pixel_mm2, mesh.slope_contrast * pixel_mm2, planned);
 }
 
 MeshNodes GhostPlanner::landed(const ProbedGhost& ghost) const {
@@ -288,7 +292,7 @@ GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
                                     planned.flux_mm2 > split_above * planned.allowance_mm2);
     planned.cells = chosen.cells;
     planned.bands = chosen.bands;
-    choose_level(chosen, ghost.errors.contrast_mm2, planned);
+    choose_level(chosen, ghost.errors.contrast_mm2, ghost.errors.slopes_mm2, planned);
 
     GhostDrawing drawing;
     const MirrorGrid& probe = ghost.grid;
@@ -333,6 +337,7 @@ ColorMesh<gray_channels> last_channel(const ColorMesh<C>& mesh) {
     ColorMesh<gray_channels> gray;
     gray.cells = mesh.cells;
     gray.edge_contrast = mesh.edge_contrast;
+    gray.slope_contrast = mesh.slope_contrast;
     gray.reaches_past_right = mesh.reaches_past_right;
     gray.flux_mm2[0] = mesh.flux_mm2[C - 1];
     for (const ColorEdge<C>& e : mesh.edges)

@@ -18,6 +18,7 @@ struct FirstErrors {
     int cells = 0;              ///< of that grid, across
     double area_px2 = 0.0;      ///< of the ghost's sheets on the sensor, near the frame
     double contrast_mm2 = 0.0;  ///< per pixel of blur
+    double slopes_mm2 = 0.0;    ///< per pixel² of a blur's half variance
     double grid_mm2 = 0.0;      ///< the map's bend
     double merging_mm2 = 0.0;   ///< all colours in one band
     double weight_mm2 = 0.0;    ///< interpolating the light between the probe's rays
@@ -83,7 +84,8 @@ class GhostPlanner {
     PupilBox entrance_;
 
     Fineness choose(const ProbedGhost& ghost) const;
-    void choose_level(const Fineness& fineness, double contrast_mm2, PlannedGhost& planned) const;
+    void choose_level(const Fineness& fineness, double contrast_mm2, double slopes_mm2,
+                      PlannedGhost& planned) const;
     MeshNodes at_wavelength(const std::vector<MeshNodes>& placed, double wavelength_nm) const;
     MirrorGrid traced(const PlannedGhost& planned, std::size_t node, int cells,
                       bool keep_cosines = false, Weights weights = Weights::none) const;

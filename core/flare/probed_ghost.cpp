@@ -124,6 +124,7 @@ void GhostPlanner::look(const MirrorGrid& first, const MeshNodes& nodes, ProbedG
     const double contrast = mesh.edge_contrast * frame.pixel_area_mm2();
     FirstErrors& errors = ghost.errors;
     errors.contrast_mm2 = contrast;
+    errors.slopes_mm2 = mesh.slope_contrast * frame.pixel_area_mm2();
     errors.cells = first.cells;
     errors.area_px2 = mesh.area_px2;
     if (scene_.coating_model == CoatingModel::exact)

@@ -67,7 +67,7 @@ TEST(PathStability, PredictsWhatSinglePrecisionLoses) {
         ASSERT_TRUE(found.has_value());
         std::size_t compared = 0;
         for (const PathStability& ghost : *found) {
-            if (ghost.landed < 50) continue;
+            if (ghost.landed < 20) continue;  // too few for a worst one
             ++compared;
             const double predicted_mm = float_rounding * ghost.amplification_mm;
             EXPECT_LE(ghost.position_worst_mm, most * predicted_mm) << file << name(ghost.path);
