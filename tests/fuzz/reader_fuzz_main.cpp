@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -24,7 +25,7 @@ using namespace ghostlight;
 using Clock = std::chrono::steady_clock;
 
 constexpr double longest_s = 2.0;         ///< for one file
-constexpr double hang_s = 20.0;           ///< after which the program gives up on one
+constexpr double hang_s = 20.0;           ///< of processor time, after which it gives up on one
 constexpr double most_memory_mb = 512.0;  ///< more than the program holds by itself
 
 double seconds_since(Clock::time_point begin) {
@@ -84,16 +85,23 @@ std::string saved(const Options& options, const FuzzedReader& reader, std::uint6
     return file;
 }
 
-std::atomic<Clock::rep> began{0};
+/// Processor time of the whole program: a busy machine is no hang.
+double process_seconds() {
+    timespec spent{};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &spent);
+    return static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec);
+}
+
+/// When the file in hand began, by that clock; 0 between files.
+std::atomic<double> began_s{0.0};
 
 /// Ends the program when one file takes too long; the file's name is in `current`.
 void watch(std::stop_token stop) {
     while (!stop.stop_requested()) {
         std::this_thread::sleep_for(std::chrono::milliseconds(200));
-        const auto since = began.load();
-        if (since == 0) continue;
-        const Clock::time_point begin{Clock::duration(since)};
-        if (seconds_since(begin) > hang_s) {
+        const double since_s = began_s.load();
+        if (since_s == 0.0) continue;
+        if (process_seconds() - since_s > hang_s) {
             fmt::print(stderr, "fuzz: one file takes more than {} s: see current.txt\n", hang_s);
             std::abort();
         }
@@ -124,7 +132,7 @@ Result run(const FuzzedReader& reader, const Options& options, double seconds, C
         const std::string bytes = mutated(reader, number);
         if (options.replay) fmt::print("  {}\n", saved(options, reader, number, bytes));
         current.is(fmt::format("--reader '{}' --replay {}", reader.name, number));
-        began = Clock::now().time_since_epoch().count();
+        began_s = process_seconds();
         const double start_s = thread_seconds();
         try {
             if (read_fuzzed(reader, bytes) == FuzzOutcome::read)
@@ -134,7 +142,7 @@ Result run(const FuzzedReader& reader, const Options& options, double seconds, C
         } catch (const FuzzDefect& defect) {
             report_defect(options, reader, number, bytes, defect.what, result);
         }
-        began = 0;
+        began_s = 0.0;
         const double took_s = thread_seconds() - start_s;
         if (took_s > result.slowest_s) {
             result.slowest_s = took_s;
