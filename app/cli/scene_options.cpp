@@ -244,7 +244,8 @@ void add_scene(CLI::App& command, SceneOptions& options) {
     add_text(command, "--jitter", options.jitter, "MM",
              "every ghost moved by a normal deviate of this size")
         ->group(artistic);
-    add_text(command, "--jitter-seed", options.seed, "N", "of the jitter; default 1")->group(artistic);
+    add_text(command, "--jitter-seed", options.seed, "N", "of the jitter; default 1")
+        ->group(artistic);
 }
 
 Scene scene_of(const SceneOptions& options, const LoadedLens& loaded) {

@@ -190,8 +190,8 @@ std::optional<FlareImage> render_uniform(const Prescription& lens, const FlareRe
         const auto path = trace_path<float>(system, ghost);
         const auto probe = probe_bundle(system, path, frame, pupil.box);
         int cells = request.grid != 0
-                              ? request.grid
-                              : cells_for_bend(probe, request.bend_px * pixels.pitch_mm, reach_mm);
+                        ? request.grid
+                        : cells_for_bend(probe, request.bend_px * pixels.pitch_mm, reach_mm);
         if (request.grid == 0 && system.stop_mask.picture)
             cells = std::max(cells, coarsest_pictured);
         const auto grid = weighted_grid(system, path, frame, pupil.box, probe, cells);

@@ -102,7 +102,8 @@ void trace_bundle(const TracePath<T>& path, const BeamFrame& frame, Weights weig
     }
     view.weights = static_cast<int>(weights);
     run(view);
-    if (view.lengths != nullptr && weights != Weights::none) absorb(path, lengths_mm, padded, bundle);
+    if (view.lengths != nullptr && weights != Weights::none)
+        absorb(path, lengths_mm, padded, bundle);
     if (bundle.keep_cosines) bundle.lengths_mm = std::move(lengths_mm);
     for (auto* channel : {&bundle.u_mm, &bundle.v_mm, &bundle.x_mm, &bundle.y_mm, &bundle.weight,
                           &bundle.margin, &bundle.r_rel})

@@ -48,10 +48,10 @@ TEST_F(StopImageFile, EightAndSixteenBitsAlphaAndColour) {
             EXPECT_NEAR(image.picture->open()[k], expected[k], 1.0 / 255.0) << name;
     }
     // Open where it is white and opaque; the mean of the colours.
-    const StopImage image = read_stop_image(
-        write("alpha.png", 4, 2, 4, OIIO::TypeDesc::UINT8,
-              {1, 1, 1, 1, /**/ 1, 1, 1, 1, /**/ 1, 1, 1, 0, /**/ 1, 1, 1, 0,
-               1, 1, 1, 1, /**/ 1, 1, 1, 1, /**/ 1, 1, 1, 0, /**/ 1, 1, 1, 0}));
+    const StopImage image =
+        read_stop_image(write("alpha.png", 4, 2, 4, OIIO::TypeDesc::UINT8,
+                              {1, 1, 1, 1, /**/ 1, 1, 1, 1, /**/ 1, 1, 1, 0, /**/ 1, 1, 1, 0,
+                               1, 1, 1, 1, /**/ 1, 1, 1, 1, /**/ 1, 1, 1, 0, /**/ 1, 1, 1, 0}));
     EXPECT_NEAR(image.picture->open_at(-0.9, 0.2), 1.0, 1e-3);
     EXPECT_NEAR(image.picture->open_at(0.9, 0.2), 0.0, 1e-3);
     const StopImage red =
