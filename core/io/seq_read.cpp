@@ -412,8 +412,12 @@ class SeqReader {
         if (command.words.empty()) return;
         const std::string what = upper_case(command.words[0].text);
         if (const auto count = parse_number(what)) {
-            constexpr double most = 1000.0;
-            read_.positions = static_cast<std::size_t>(std::clamp(*count, 1.0, most));
+            // CODE V itself has fewer; each becomes a configuration that is checked by itself.
+            constexpr double most = 100.0;
+            if (!(*count >= 1.0 && *count <= most))
+                place().refuse("not a usable number of zoom positions", in_quotes(what),
+                               "1 to 100");
+            read_.positions = static_cast<std::size_t>(*count);
             return;
         }
         if (what == "TIT" || what == "THC") return;
