@@ -1,9 +1,16 @@
 #include "widgets/snapshot.h"
 
+#include <QAbstractScrollArea>
 #include <QDeadlineTimer>
+#include <QDockWidget>
 #include <QEventLoop>
+#include <QHeaderView>
 #include <QPixmap>
+#include <QScrollBar>
+#include <QTableView>
 #include <QTimer>
+
+#include <algorithm>
 
 #include "core/error.h"
 #include "core/io/image_file.h"
@@ -26,6 +33,47 @@ void run_events(int for_ms) {
     QEventLoop loop;
     QTimer::singleShot(for_ms, &loop, &QEventLoop::quit);
     loop.exec();
+}
+
+void write_picture(QWidget& of, const std::filesystem::path& file) {
+    if (!of.grab().save(QString::fromStdString(file.string()))) {
+        throw Error({"cannot write the picture", file.string(), {}, {}, {}});
+    }
+}
+
+/// How much higher a panel would have to be for all of it to be seen, in px.
+int hidden_height_px(const QWidget& panel) {
+    const auto* area = panel.findChild<QAbstractScrollArea*>();
+    const auto* table = qobject_cast<const QTableView*>(area);
+    return table  ? table->verticalHeader()->length() - table->viewport()->height()
+           : area ? area->verticalScrollBar()->maximum()
+                  : 0;
+}
+
+/// The panels that share a place, where only one is seen: each whole, as panel_NAME.png.
+void write_tabbed_panels(MainWindow& window, const std::filesystem::path& folder) {
+    constexpr int highest_px = 2000;
+    const QByteArray places = window.saveState();
+    QList<QDockWidget*> tabbed;
+    for (QDockWidget* dock : window.findChildren<QDockWidget*>()) {
+        if (!dock->isHidden() && !window.tabifiedDockWidgets(dock).isEmpty()) {
+            tabbed << dock;
+        }
+    }
+    for (QDockWidget* dock : tabbed) {
+        dock->raise();
+        run_events(drawing_ms);
+        const QSize size = dock->size();
+        dock->setFloating(true);
+        dock->resize(size);
+        run_events(drawing_ms);
+        const int wanted = size.height() + std::max(0, hidden_height_px(*dock));
+        dock->resize(size.width(), std::min(wanted, highest_px));
+        run_events(drawing_ms);
+        write_picture(*dock, folder / ("panel_" + dock->objectName().toStdString() + ".png"));
+        dock->setFloating(false);
+    }
+    window.restoreState(places);
 }
 
 }  // namespace
@@ -51,6 +99,8 @@ void write_snapshot(MainWindow& window, const std::filesystem::path& folder) {
         throw Error("the views were not ready in " + std::to_string(timeout_ms / 1000) + " s");
     }
     run_events(drawing_ms);
+    write_picture(window, folder / "workbench.png");
+    write_tabbed_panels(window, folder);
     const auto table = window.ghost_panel().model().table();
     if (!table || window.ghost_panel().model().is_stale() || !window.picture()) {
         throw Error(window.banner().text().isEmpty() ? std::string("there is nothing to show")
@@ -58,10 +108,6 @@ void write_snapshot(MainWindow& window, const std::filesystem::path& folder) {
     }
     write_file_safely(folder / "ghosts.csv", ghost_table_csv(*table));
     write_exr(*window.picture()->image, folder / "flare.exr");
-    const auto picture = folder / "workbench.png";
-    if (!window.grab().save(QString::fromStdString(picture.string()))) {
-        throw Error({"cannot write the picture", picture.string(), {}, {}, {}});
-    }
 }
 
 }  // namespace ghostlight

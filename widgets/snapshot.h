@@ -6,8 +6,9 @@ namespace ghostlight {
 
 class MainWindow;
 
-/// Waits until the window shows its lens, and writes workbench.png, ghosts.csv and flare.exr into
-/// a folder. Throws Error when something fails.
+/// Waits until the window shows its lens, and writes workbench.png, the panels that share a place
+/// as panel_NAME.png, ghosts.csv and flare.exr into a folder. Throws Error when something fails; of
+/// a lens that cannot be traced the pictures are written before.
 void write_snapshot(MainWindow& window, const std::filesystem::path& folder);
 
 /// Runs the event loop until the window's views are up to date; false after a time-out.

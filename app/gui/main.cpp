@@ -11,6 +11,9 @@
 #include <optional>
 #include <string>
 
+#include "core/ghosts/ghost_path.h"
+#include "core/optics/optical_system.h"
+#include "core/units.h"
 #include "widgets/main_window.h"
 #include "widgets/panels/banner.h"
 #include "widgets/settings.h"
@@ -29,8 +32,10 @@ constexpr const char* usage_text = R"(Usage: ghostlight [OPTIONS] [LENS]
 
 Opens the lens-flare workbench, on a lens file if one is given.
 
-  --snapshot DIR  open LENS, wait until all views are ready, write workbench.png, ghosts.csv and
-                  flare.exr into DIR, and exit
+  --snapshot DIR  open LENS, wait until all views are ready, write workbench.png, the tabbed
+                  panels (panel_NAME.png), ghosts.csv and flare.exr into DIR, and exit
+  --theme NAME    dark or light, this time
+  --ghost PAIR    a ghost to select at first, e.g. 5-3
   --engine NAME   what draws flares, this time: automatic, cpu or opengl
   --size WxH      size of the window in pixels, e.g. 1366x768
   --help          this text
@@ -90,8 +95,14 @@ int run(QApplication& application, const QCommandLineParser& options) {
         return fail("--engine: found " + options.value("engine").toStdString() +
                     ", expected automatic, cpu or opengl");
     }
-    ghostlight::apply_theme(application,
-                            snapshot ? ghostlight::Theme::dark : ghostlight::settings::theme());
+    const QString theme = options.value("theme");
+    if (options.isSet("theme") && theme != "dark" && theme != "light") {
+        return fail("--theme: found " + theme.toStdString() + ", expected dark or light");
+    }
+    ghostlight::apply_theme(application, theme == "light" ? ghostlight::Theme::light
+                                         : theme == "dark" || snapshot
+                                             ? ghostlight::Theme::dark
+                                             : ghostlight::settings::theme());
     ghostlight::MainWindow window(!snapshot);
     if (engine) {
         window.set_engine(*engine);
@@ -103,6 +114,12 @@ int run(QApplication& application, const QCommandLineParser& options) {
     const bool opened = files.isEmpty() || window.open(files.front().toStdString());
     if (snapshot && !opened) {
         return fail(window.banner().text().toStdString());
+    }
+    if (options.isSet("ghost")) {
+        const ghostlight::OpticalSystem system =
+            ghostlight::compile(window.document().configured_lens(), ghostlight::d_line_nm);
+        window.selection().set_ghosts(
+            {ghostlight::parse_ghost(options.value("ghost").toStdString(), system)});
     }
     window.show();
     if (!snapshot) {
@@ -137,7 +154,11 @@ int main(int argc, char** argv) {
     std::setlocale(LC_NUMERIC, "C");
 
     QCommandLineParser options;
-    options.addOptions({{"snapshot", "", "DIR"}, {"size", "", "WxH"}, {"engine", "", "NAME"}});
+    options.addOptions({{"snapshot", "", "DIR"},
+                        {"size", "", "WxH"},
+                        {"engine", "", "NAME"},
+                        {"theme", "", "NAME"},
+                        {"ghost", "", "PAIR"}});
     options.addPositionalArgument("LENS", "");
     if (!options.parse(QCoreApplication::arguments())) {
         return fail(options.errorText().toStdString() + " (see --help)");
