@@ -1,0 +1,102 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <utility>
+#include <vector>
+
+#include "core/fit/fit_evaluator.h"
+#include "core/fit/fit_report.h"
+#include "core/fit/fit_statistics.h"
+#include "core/fit/flare_fit.h"
+
+namespace ghostlight {
+
+/// Thrown inside of a fit that was asked to stop.
+struct FitStopped {};
+
+/// One fit as it goes on: data and bases (fit_run.cpp), what the first look tells (fit_start.cpp),
+/// the iterations (fit_solve.cpp), the report (fit_finish.cpp).
+class FitRun {
+   public:
+    FitRun(const Prescription& lens, const std::vector<FitPhoto>& photos, const FitRequest& request,
+           std::stop_token stop, const FitProgress& progress)
+        : listed_{lens, {}},
+          photos_(photos),
+          request_(request),
+          stop_(std::move(stop)),
+          progress_(progress) {}
+    FitReport run();
+
+   private:
+    void check_stop() const;
+    void tell(double share) const;
+    void prepare();
+    /// The lens with the geometry as it stands; coatings are the weights' business.
+    FittedLens current_geometry() const;
+    FittedLens with_coatings(FittedLens lens) const;
+    LightDirection light_of(std::size_t photo) const;
+    FitPlace place_of(std::size_t photo) const;
+    /// Bases of all photographs for the geometry and places as they stand.
+    void build();
+    /// Signal to noise of each basis of a photograph at the model's gains.
+    std::vector<double> signals(std::size_t photo);
+    void look_at_start();
+    /// After the layout has changed: everything that depends on it.
+    void refresh();
+    void drop_unfelt();
+    /// The picture of other geometry, with the coatings as they stand.
+    std::vector<double> picture_of(const FittedLens& lens, std::size_t photo,
+                                   const LightDirection& light, bool main_only);
+    /// Slopes by geometry and place where they stand.
+    void linearise();
+    double cost_now();
+    double explained();
+    double solve(int iterations);
+    void solve_coatings();
+    /// Tries each centre wavelength elsewhere, alone, with a few iterations for the others to
+    /// follow: local minima of one surface, of which a reflectance that rises to either side of its
+    /// centre has at least two.
+    bool jump_centers();
+    /// Linearises geometry and place again until they stay.
+    void settle();
+    bool is_linearised(std::size_t k) const;
+    std::vector<double> shares(std::size_t photo);
+    struct Unmixed {
+        Eigen::VectorXd gains, errors;
+        std::vector<std::size_t> ghosts;  ///< bases, strongest first
+        std::vector<std::size_t> merged;  ///< into which of `ghosts`; itself: not
+        std::vector<double> signals;
+    };
+    /// Gains of the strongest ghosts against their pictures, by non-negative least squares.
+    Unmixed unmixed(std::size_t photo);
+    FitReport finish();
+    /// Which light would narrow the worst known number most: its Jacobian, from the model, with the
+    /// noise of the first photograph at a tenth of its brightest level.
+    void suggest(const Eigen::MatrixXd& known);
+
+    FittedLens listed_;
+    const std::vector<FitPhoto>& photos_;
+    const FitRequest& request_;
+    std::stop_token stop_;
+    const FitProgress& progress_;
+    FitLayout layout_;
+    std::vector<FitParameter> not_felt_;
+    std::vector<FitView> views_;
+    std::unique_ptr<FitScene> scene_;
+    std::unique_ptr<GhostWeights> weights_;
+    std::unique_ptr<FitEvaluator> evaluator_;
+    std::vector<std::vector<double>> start_models_;
+    std::vector<std::vector<double>> start_shares_;  ///< by photo, by basis
+    std::vector<Eigen::VectorXd> start_gains_;
+    Eigen::VectorXd start_errors_;
+    FitReport report_;
+    double basis_ms_ = 0.0, cost_ = 0.0;
+    std::size_t kept_ = 0;
+    std::optional<std::vector<GhostPath>> kept_paths_;
+};
+
+}  // namespace ghostlight

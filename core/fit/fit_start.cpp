@@ -1,0 +1,127 @@
+#include "core/fit/fit_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace ghostlight {
+namespace {
+
+/// Ghosts whose whole signal, times this for coatings that are other than at the start, is below
+/// one standard deviation are not carried along.
+constexpr double brighter_at_most = 6.0;
+/// A parameter is not felt when the photographs narrow its prior by less than this share.
+constexpr double felt = 1e-3;
+
+}  // namespace
+
+void FitRun::look_at_start() {
+    evaluator_ = std::make_unique<FitEvaluator>(layout_, views_, *weights_, request_.threads);
+    evaluator_->start_gains();
+    // Ghosts below the noise are left out, with the bound.
+    double left_out2 = 0.0, loudest = 0.0;
+    std::vector<bool> keep(scene_->ghosts.size(), false);
+    std::vector<std::vector<double>> found;
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+        found.push_back(signals(i));
+        for (std::size_t g = 0; g < found[i].size(); ++g) {
+            loudest = std::max(loudest, found[i][g]);
+            if (brighter_at_most * found[i][g] >= 1.0) keep[views_[i].bases[g].ghost] = true;
+        }
+    }
+    if (loudest < 5.0)
+        throw Error({.problem = "no ghost is visible in the photograph",
+                     .file = photos_.front().photo.file,
+                     .where = {},
+                     .found = fmt::format("the strongest has {:.2g} standard deviations of "
+                                          "signal in all",
+                                          loudest),
+                     .expected = "a photograph exposed so that the flare is well above the "
+                                 "noise, with the light near the frame"});
+    for (std::size_t i = 0; i < views_.size(); ++i)
+        for (std::size_t g = 0; g < found[i].size(); ++g)
+            if (!keep[views_[i].bases[g].ghost]) {
+                left_out2 += found[i][g] * found[i][g];
+                ++report_.ghosts_left_out;
+            }
+    report_.left_out_signal_to_noise = std::sqrt(left_out2);
+    for (FitView& view : views_)
+        std::erase_if(view.bases, [&](const GhostBasis& basis) { return !keep[basis.ghost]; });
+    std::vector<GhostPath> kept;
+    std::vector<std::size_t> new_index(scene_->ghosts.size(), 0);
+    for (std::size_t g = 0; g < keep.size(); ++g)
+        if (keep[g]) {
+            new_index[g] = kept.size();
+            kept.push_back(scene_->ghosts[g]);
+        }
+    for (FitView& view : views_)
+        for (GhostBasis& basis : view.bases) basis.ghost = new_index[basis.ghost];
+    scene_->ghosts = kept;
+    kept_paths_ = kept;
+
+    linearise();
+    refresh();
+    // What no visible ghost feels is named and held.
+    drop_unfelt();
+    evaluator_->start_gains();
+    evaluator_->PrepareForEvaluation(true, true);
+    const auto info = information(*evaluator_, FitLoss::none, 1.0, request_.ghost_error);
+    const Eigen::MatrixXd covariance = covariance_of(info);
+    start_errors_ = covariance.diagonal().cwiseSqrt();
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+        start_models_.push_back(evaluator_->model(i));
+        start_shares_.push_back(shares(i));
+        start_gains_.push_back(unmixed(i).gains);
+    }
+    report_.cost_before = cost_now();
+    report_.explained_before = explained();
+    cost_ = report_.cost_before;
+    tell(0.1);
+}
+
+void FitRun::drop_unfelt() {
+    evaluator_->start_gains();
+    evaluator_->PrepareForEvaluation(true, true);
+    const std::size_t count = layout_.count();
+    std::vector<double> sums(layout_.lens_count(), 0.0);
+    for (std::size_t i = 0; i < views_.size(); ++i)
+        for (std::size_t row = 0; row < 3 * views_[i].data.samples(); ++row)
+            for (std::size_t p = 0; p < sums.size(); ++p)
+                sums[p] += std::pow(evaluator_->jacobian(i)[row * count + p], 2);
+    FitLayout kept = layout_;
+    kept.coatings.clear();
+    kept.geometry.clear();
+    std::vector<std::size_t> geometry_kept;
+    for (std::size_t p = 0; p < sums.size(); ++p) {
+        const bool coating = p < layout_.coatings.size();
+        const FitParameter& parameter =
+            coating ? layout_.coatings[p] : layout_.geometry[p - layout_.coatings.size()];
+        if (std::sqrt(sums[p]) < felt) {
+            not_felt_.push_back(parameter);
+            continue;
+        }
+        (coating ? kept.coatings : kept.geometry).push_back(parameter);
+        if (!coating) geometry_kept.push_back(p - layout_.coatings.size());
+    }
+    if (kept.lens_count() == 0)
+        throw Error({.problem = "no visible ghost feels any of the variables",
+                     .file = photos_.front().photo.file,
+                     .where = "--vary",
+                     .found = fmt::format("{} variables", sums.size()),
+                     .expected = "variables on surfaces that take part in visible ghosts"});
+    if (not_felt_.empty()) return;
+    for (FitView& view : views_) {
+        std::vector<std::vector<double>> slopes;
+        for (const std::size_t q : geometry_kept) slopes.push_back(view.slopes[q]);
+        for (std::size_t q = layout_.geometry.size(); q < view.slopes.size(); ++q)
+            slopes.push_back(view.slopes[q]);
+        view.slopes = std::move(slopes);
+    }
+    layout_ = kept;
+    refresh();
+}
+
+}  // namespace ghostlight
