@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "core/elapsed.h"
+#include "core/error.h"
 #include "core/parallel.h"
 
 namespace ghostlight {
@@ -165,7 +167,9 @@ double FitRun::solve(int iterations) {
     const int done = std::max(1, static_cast<int>(summary.iterations.size()) - 1);
     report_.iterations += done;
     report_.iteration_ms = ms_since(began) / done;
-    return summary.final_cost;
+    // A failed solve has a cost of -1, which must not pass for the lowest.
+    return summary.IsSolutionUsable() ? summary.final_cost
+                                      : std::numeric_limits<double>::infinity();
 }
 
 void FitRun::solve_coatings() {
@@ -200,6 +204,12 @@ void FitRun::solve_coatings() {
         check_stop();
         tell(0.1 + 0.4 * (start + 1) / std::max(1, request_.starts));
     }
+    if (!std::isfinite(lowest))
+        throw Error({.problem = "the fit found no finite picture of this lens",
+                     .file = photos_.front().photo.file,
+                     .where = "--vary",
+                     .found = "values or slopes that are not numbers from every first guess",
+                     .expected = "other bounds, or fewer variables"});
     evaluator_->x = best;
     for (std::size_t i = 0; i < views_.size(); ++i) views_[i].log_gain_start = best_gains[i];
     solve(final_iterations);

@@ -183,9 +183,15 @@ void GhostWeights::fill(std::size_t which, const FittedLens& lens,
                                            stride];
                 auto put = [&](std::size_t i, const auto& value) {
                     if constexpr (std::is_same_v<std::decay_t<decltype(value)>, Jet>) {
+                        // Beyond the critical angle, and at grazing, nothing passes whatever the
+                        // coating: the root of a jet that is 0 has no slope but 0/0.
+                        const bool nothing = reflected == 0 && value.a == 0.0;
                         to[i] = value.a;
                         for (std::size_t l = 0; l < table.parameters.size(); ++l)
-                            to[4 * (l + 1) + i] = value.v[static_cast<int>(l)];
+                            to[4 * (l + 1) + i] =
+                                nothing && !std::isfinite(value.v[static_cast<int>(l)])
+                                    ? 0.0
+                                    : value.v[static_cast<int>(l)];
                     } else {
                         to[i] = value;
                     }

@@ -155,6 +155,7 @@ MaskCounts mask_unusable(Photo& photo) {
 Photo merged(const std::vector<Photo>& exposures) {
     if (exposures.empty()) throw Error("no photographs to merge");
     double longest_s = 0.0;
+    const Photo* shortest = nullptr;
     for (const Photo& each : exposures) {
         if (!each.exposure_s || !(*each.exposure_s > 0.0))
             fail(each, "bracketed exposures are merged by their exposure times", "none in the file",
@@ -166,9 +167,13 @@ Photo merged(const std::vector<Photo>& exposures) {
                  fmt::format("{} x {}, as the first", exposures.front().width_px,
                              exposures.front().height_px));
         longest_s = std::max(longest_s, *each.exposure_s);
+        if (shortest == nullptr || *each.exposure_s < *shortest->exposure_s) shortest = &each;
     }
     Photo sum = exposures.front();
-    sum.saturation = std::numeric_limits<double>::infinity();
+    // What is masked everywhere, as a light that clips even the shortest exposure, keeps that one's
+    // value: it stays the brightest, and clipped, for find_light().
+    const double longest_scale = longest_s / *shortest->exposure_s;
+    sum.saturation = longest_scale * shortest->saturation;
     double shot = 0.0, read = 0.0;
     for (std::size_t i = 0; i < sum.pixels(); ++i) {
         std::array<double, 3> total{}, weights{};
@@ -188,7 +193,8 @@ Photo merged(const std::vector<Photo>& exposures) {
         sum.masked[i] = weights[0] > 0.0 ? 0 : 1;
         for (std::size_t c = 0; c < 3; ++c)
             sum.rgb[3 * i + c] =
-                weights[c] > 0.0 ? static_cast<float>(total[c] / weights[c]) : 0.0F;
+                static_cast<float>(weights[c] > 0.0 ? total[c] / weights[c]
+                                                    : longest_scale * shortest->rgb[3 * i + c]);
     }
     // In the dim parts, which is most of a flare, all exposures count.
     for (const Photo& each : exposures) {

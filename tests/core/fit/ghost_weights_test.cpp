@@ -104,6 +104,26 @@ TEST(GhostWeights, SlopesAreThoseOfDifferencesOnEveryLens) {
     }
 }
 
+TEST(GhostWeights, SlopesAreNumbersBeyondTheCriticalAngle) {
+    // Tables reach over all rays that meet a surface, here from glass beyond its critical angle,
+    // where nothing passes.
+    const Prescription lens = bundled("nikkor_z_58_f0.95_noct");
+    Kit kit;
+    fill(kit, lens, StandardLight{}, 5.0, 1000);
+    const auto parameters = parse_vary("center@all", lens);
+    GhostWeights weights(kit.scene, kit.all, parameters, 0);
+    std::vector<double> at;
+    for (const FitParameter& p : parameters) at.push_back(p.start);
+    weights.update(at, true);
+    std::size_t wrong = 0;
+    for (const GhostBasis& basis : kit.bases) {
+        std::vector<double> values, by;
+        weights.coefficients(basis, values, &by);
+        for (const double each : by) wrong += std::isfinite(each) ? 0 : 1;
+    }
+    EXPECT_EQ(wrong, 0U);
+}
+
 TEST(GhostWeights, PictureIsTheReferencesOne) {
     const Prescription lens = bundled("tessar_brendel_100_f2.8");
     const LightDirection light{5.0, 70.0};

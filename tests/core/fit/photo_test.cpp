@@ -106,5 +106,25 @@ TEST(Photo, ExposuresMergeToTheirCommonLight) {
               std::string::npos);
 }
 
+TEST(Photo, ALightThatClipsEveryExposureIsFoundInTheMergedOne) {
+    Photo lengthy = noisy_photo(1e-4, 1e-6, 1), brief = noisy_photo(1e-4, 1e-6, 2);
+    for (float& value : brief.rgb) value *= 0.25F;
+    lengthy.exposure_s = 0.04;
+    brief.exposure_s = 0.01;
+    for (Photo* each : {&lengthy, &brief}) {
+        for (int y = 200; y < 207; ++y)
+            for (int x = 100; x < 107; ++x)
+                for (std::size_t c = 0; c < 3; ++c)
+                    each->rgb[3 * static_cast<std::size_t>(y * each->width_px + x) + c] = 1.0F;
+        mask_unusable(*each);
+    }
+    const Photo one = merged({lengthy, brief});
+    EXPECT_TRUE(one.masked[203 * 400 + 103]);
+    const LightSpot spot = find_light(one);
+    EXPECT_EQ(spot.pixels, 49U);
+    EXPECT_DOUBLE_EQ(spot.column, 103.5);  // px, of a square of 7 from 100
+    EXPECT_DOUBLE_EQ(spot.row, 203.5);
+}
+
 }  // namespace
 }  // namespace ghostlight
