@@ -41,6 +41,11 @@ double spline_correlation(int lag) {
     }
 }
 
+double shared_noise() {
+    const double along = 1.0 + 2.0 * (spline_correlation(1) + spline_correlation(2));
+    return along * along;
+}
+
 FitData fit_data(const Photo& photo, const PhotoPlace& place, double sensor_width_mm,
                  double sensor_height_mm, int across) {
     const double pitch_mm = place.pitch_mm(photo);

@@ -20,6 +20,10 @@ inline constexpr double spline_reach = 1.5;
 /// than a sample.
 double spline_correlation(int lag);
 
+/// χ² of all samples over that of as many independent ones, for a smooth signal: (Σ correlation)²
+/// over both axes.
+double shared_noise();
+
 /// A photograph on the fit's scale: the mean of the linear photograph under a spline about each
 /// sample, samples being the middles of the pixels of a coarse picture of the sensor.
 struct FitData {

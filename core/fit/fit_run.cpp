@@ -15,8 +15,14 @@ FitReport FitRun::run() {
     prepare();
     build();
     look_at_start();
+    share_ = 0.2;
     solve_coatings();
+    share_ = 0.4;
     settle();
+    share_ = 0.6;
+    const bool elsewhere = explore_coatings();
+    share_ = 0.8;
+    if (elsewhere) settle();
     FitReport report = finish();
     report.basis_ms = basis_ms_;
     report.seconds = 1e-3 * ms_since(began);
