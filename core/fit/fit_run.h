@@ -63,8 +63,8 @@ class FitRun {
     bool explore_coatings();
     void stand_at(const FitMinimum& minimum);
     FitMinimum standing() const;
-    /// Linearises geometry and place again until they stay.
-    void settle();
+    /// Linearises geometry and place again until they stay, or so many times.
+    void settle(int most_linearisations);
     bool is_linearised(std::size_t k) const;
     std::vector<double> shares(std::size_t photo);
     struct Unmixed {

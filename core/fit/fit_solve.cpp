@@ -15,7 +15,6 @@ namespace {
 
 /// Places and geometry are linearised again until they move by less than this, in priors.
 constexpr double settled = 0.02;
-constexpr int most_linearisations = 4;
 constexpr double field_step_deg = 0.02;
 constexpr double geometry_step = 0.3;  ///< of a prior
 /// First guesses for all λ0 together, nm.
@@ -218,7 +217,7 @@ bool FitRun::explore_coatings() {
     return moved > settled;
 }
 
-void FitRun::settle() {
+void FitRun::settle(int most_linearisations) {
     if (layout_.geometry.empty() && !layout_.place) return;
     for (int turn = 0; turn < most_linearisations; ++turn) {
         double moved = 0.0;
