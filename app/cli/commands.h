@@ -17,6 +17,7 @@ void add_render(CLI::App& program);
 void add_starburst(CLI::App& program);
 void add_synth(CLI::App& program);
 void add_fit(CLI::App& program);
+void add_fit_study(CLI::App& program);
 void add_plan(CLI::App& program);
 void add_veil(CLI::App& program);
 void add_composite(CLI::App& program);

@@ -72,6 +72,7 @@ int run(std::vector<std::string> arguments) {
     add_starburst(program);
     add_synth(program);
     add_fit(program);
+    add_fit_study(program);
     add_plan(program);
     add_veil(program);
     add_composite(program);

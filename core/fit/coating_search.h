@@ -38,11 +38,12 @@ class CoatingSearch {
     /// within `margin` of it after it, no two alike.
     std::vector<FitMinimum> explore(const FitMinimum& from, double margin,
                                     const std::stop_token& stop, const std::function<void()>& tell);
+    /// Whether the coatings are the same, but for what iterations leave.
+    bool alike(const std::vector<double>& a, const std::vector<double>& b) const;
     int iterations() const { return iterations_; }
 
    private:
     std::vector<std::vector<double>> neighbours(const std::vector<double>& x) const;
-    bool alike(const std::vector<double>& a, const std::vector<double>& b) const;
 
     const FitLayout& layout_;
     std::vector<FitView> views_;

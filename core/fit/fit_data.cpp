@@ -28,6 +28,12 @@ double spline_slope(double t) {
     return t > 0.0 ? a - 1.5 : 1.5 - a;
 }
 
+double pixel_weight(double t, double pixel) {
+    const double a = std::abs(t), share = pixel * pixel / 24.0;
+    if (a >= 1.5) return 0.0;
+    return spline(t) + (a <= 0.5 ? 2.0 : -1.0) * share;
+}
+
 double spline_correlation(int lag) {
     switch (std::abs(lag)) {
         case 0:
@@ -63,6 +69,7 @@ FitData fit_data(const Photo& photo, const PhotoPlace& place, double sensor_widt
                          static_cast<std::size_t>(data.frame.height_px);
     data.value.assign(3 * samples, 0.0);
     std::vector<double> weight(samples, 0.0), squares(samples, 0.0), whole(samples, 0.0);
+    const double breadth = pitch_mm / data.frame.pitch_mm;
     const double cosine = std::cos(place.rotation_rad), sine = std::sin(place.rotation_rad);
     for (int row = 0; row < photo.height_px; ++row)
         for (int column = 0; column < photo.width_px; ++column) {
@@ -78,12 +85,12 @@ FitData fit_data(const Photo& photo, const PhotoPlace& place, double sensor_widt
             for (int j = static_cast<int>(std::ceil(y - 2.0)); j <= static_cast<int>(y + 1.0);
                  ++j) {
                 if (j < 0 || j >= data.frame.height_px) continue;
-                const double wy = spline(y - (j + 0.5));
+                const double wy = pixel_weight(y - (j + 0.5), breadth);
                 if (wy == 0.0) continue;
                 for (int i = static_cast<int>(std::ceil(x - 2.0)); i <= static_cast<int>(x + 1.0);
                      ++i) {
                     if (i < 0 || i >= data.frame.width_px) continue;
-                    const double w = wy * spline(x - (i + 0.5));
+                    const double w = wy * pixel_weight(x - (i + 0.5), breadth);
                     if (w == 0.0) continue;
                     const std::size_t s = static_cast<std::size_t>(j) *
                                               static_cast<std::size_t>(data.frame.width_px) +
@@ -130,6 +137,23 @@ StableScale stable_scale(const FitData& data, std::size_t sample, double model_e
             .read = std::max({data.inverse_count[sample] * data.noise.read, shot * shot,
                               of_model * of_model, 1e-18}),
             .error = std::max(model_error, 1e-6)};
+}
+
+double relative_contrast(const FitData& data, std::size_t sample, double dim) {
+    const auto width = static_cast<std::size_t>(data.frame.width_px);
+    const std::size_t column = sample % width;
+    double most = 0.0;
+    auto against = [&](std::size_t other) {
+        for (std::size_t c = 0; c < 3 && data.used[other]; ++c) {
+            const double here = data.value[3 * sample + c];
+            most = std::max(most, std::abs(data.value[3 * other + c] - here) / std::max(here, dim));
+        }
+    };
+    if (column > 0) against(sample - 1);
+    if (column + 1 < width) against(sample + 1);
+    if (sample >= width) against(sample - width);
+    if (sample + width < data.samples()) against(sample + width);
+    return most;
 }
 
 double StableScale::sigma(double value) const {

@@ -13,6 +13,10 @@ namespace ghostlight {
 double spline(double t);
 /// Its derivative.
 double spline_slope(double t);
+/// The weight of a pixel of breadth `pixel` (in samples) whose middle is t away: the spline
+/// sharpened by what the pixel blurs, spline − (pixel²/24) spline″, so that sums of pixels are
+/// integrals under the spline itself to the fourth order of the pixel.
+double pixel_weight(double t, double pixel);
 /// Reach of the spline to either side, in samples.
 inline constexpr double spline_reach = 1.5;
 /// Correlation of the noise of two samples `lag` apart along one axis: the spline's
@@ -62,5 +66,9 @@ struct StableScale {
     double sigma(double value) const;
 };
 StableScale stable_scale(const FitData& data, std::size_t sample, double model_error, double dim);
+
+/// The largest difference of a sample from its neighbours to the four sides, over its own value
+/// (or `dim`, where that is more): how much a rim's place matters there.
+double relative_contrast(const FitData& data, std::size_t sample, double dim);
 
 }  // namespace ghostlight

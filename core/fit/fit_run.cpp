@@ -16,6 +16,9 @@ namespace {
 /// known beforehand to a few priors, stay after one.
 constexpr int most_linearisations = 4, first_linearisations = 1;
 
+/// Of a sample: how well the model's quadrature places rims and caustics.
+constexpr double rim_place = 0.02;
+
 }  // namespace
 
 FitReport FitRun::run() {
@@ -67,8 +70,9 @@ void FitRun::prepare() {
         view.background_unit = std::max(0.1 * *place, 1e-9);
         view.stable.resize(3 * view.data.samples());
         for (std::size_t s = 0; s < view.data.samples(); ++s) {
-            view.scales.push_back(
-                stable_scale(view.data, s, request_.model_error, view.background_unit));
+            const double of_rim = rim_place * relative_contrast(view.data, s, view.background_unit);
+            view.scales.push_back(stable_scale(
+                view.data, s, std::hypot(request_.model_error, of_rim), view.background_unit));
             for (std::size_t c = 0; c < 3; ++c)
                 view.stable[3 * s + c] = view.scales[s].at(view.data.value[3 * s + c]);
         }

@@ -193,23 +193,42 @@ bool FitRun::explore_coatings() {
     for (const FitView& view : views_) samples += view.data.count;
     const double misfit = std::max(1.0, 2.0 * cost_now() / (3.0 * static_cast<double>(samples)));
     const auto found =
-        search.explore(standing(), 0.5 * most_chi2_above * misfit, stop_, [&] { tell(share_); });
+        search.explore(standing(), most_chi2_above * misfit, stop_, [&] { tell(share_); });
     check_stop();
     report_.iterations += search.iterations();
-    // On all samples, whose noise is shared, costs differ by more than those of χ².
-    std::vector<FitMinimum> minima;
+    // On all samples. The difference of two costs scatters more than for independent samples: noise
+    // is shared, and ghosts may be off as a whole.
+    struct Tried {
+        FitMinimum minimum;
+        std::vector<std::vector<double>> residuals;
+    };
+    std::vector<Tried> minima;
     for (const FitMinimum& each : found) {
         if (minima.size() == most_minima) break;
         stand_at(each);
         const double cost = solve(jump_iterations);
-        minima.push_back(standing());
-        minima.back().cost = cost;
+        Tried& tried = minima.emplace_back(Tried{standing(), {}});
+        tried.minimum.cost = cost;
+        evaluator_->PrepareForEvaluation(false, true);
+        for (std::size_t i = 0; i < views_.size(); ++i)
+            tried.residuals.push_back(evaluator_->residuals(i));
     }
-    std::ranges::stable_sort(minima, {}, &FitMinimum::cost);
-    other_minima_.assign(minima.begin() + 1, minima.end());
-    for (FitMinimum& each : other_minima_)
-        each.cost = 2.0 * (each.cost - minima.front().cost) / shared_noise();
-    stand_at(minima.front());
+    std::ranges::stable_sort(minima, {}, [](const Tried& each) { return each.minimum.cost; });
+    const Tried& best = minima.front();
+    stand_at(best.minimum);
+    evaluator_->PrepareForEvaluation(true, true);
+    other_minima_.clear();
+    for (std::size_t k = 1; k < minima.size(); ++k) {
+        if (search.alike(minima[k].minimum.x, best.minimum.x)) continue;
+        auto difference = minima[k].residuals;
+        for (std::size_t i = 0; i < difference.size(); ++i)
+            for (std::size_t r = 0; r < difference[i].size(); ++r)
+                difference[i][r] -= best.residuals[i][r];
+        FitMinimum& other = other_minima_.emplace_back(minima[k].minimum);
+        other.cost = 2.0 * (other.cost - best.minimum.cost) /
+                     scatter_of_difference(*evaluator_, difference, request_.ghost_error);
+    }
+    std::ranges::stable_sort(other_minima_, {}, &FitMinimum::cost);
     solve(final_iterations);
     double moved = 0.0;
     for (std::size_t p = 0; p < layout_.coatings.size(); ++p)

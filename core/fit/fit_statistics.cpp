@@ -84,6 +84,37 @@ FitInformation information(const FitEvaluator& evaluator, FitLoss loss, double l
     return info;
 }
 
+double scatter_of_difference(const FitEvaluator& evaluator,
+                             const std::vector<std::vector<double>>& difference,
+                             double ghost_error) {
+    auto& views = const_cast<FitEvaluator&>(evaluator).views();
+    auto& weights = const_cast<FitEvaluator&>(evaluator).weights();
+    double size = 0.0, scatter = 0.0;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        const FitView& view = views[i];
+        const std::size_t samples = view.data.samples();
+        RowMatrix delta(static_cast<Eigen::Index>(samples), 3), once, twice;
+        for (std::size_t s = 0; s < samples; ++s)
+            for (std::size_t c = 0; c < 3; ++c)
+                delta(static_cast<Eigen::Index>(s), static_cast<Eigen::Index>(c)) =
+                    view.data.used[s] ? difference[i][3 * s + c] : 0.0;
+        correlate(delta, view.data.frame.width_px, view.data.frame.height_px, true, once);
+        correlate(once, view.data.frame.width_px, view.data.frame.height_px, false, twice);
+        size += delta.squaredNorm();
+        scatter += delta.cwiseProduct(twice).sum();
+        for (const GhostBasis& basis : view.bases) {
+            const ModelPicture one = one_ghost(basis, weights, view.data.frame);
+            double along[3] = {0.0, 0.0, 0.0};
+            for (std::size_t s = 0; s < samples; ++s)
+                for (std::size_t c = 0; c < 3 && view.data.used[s]; ++c)
+                    along[c] += difference[i][3 * s + c] * evaluator.gain(i, c) * *one.at(s, c) /
+                                view.scales[s].sigma(evaluator.model(i)[3 * s + c]);
+            for (const double each : along) scatter += ghost_error * ghost_error * each * each;
+        }
+    }
+    return size > 0.0 ? std::max(1.0, scatter / size) : 1.0;
+}
+
 Eigen::MatrixXd covariance_of(const FitInformation& information, const Eigen::MatrixXd& inverse) {
     const Eigen::MatrixXd covariance = inverse * information.spread * inverse;
     return 0.5 * (covariance + covariance.transpose());

@@ -19,6 +19,14 @@ struct FitInformation {
 FitInformation information(const FitEvaluator& evaluator, FitLoss loss, double loss_scale,
                            double ghost_error);
 
+/// By how much the difference of two pictures' χ² scatters beyond that of independent samples:
+/// δᵀ C δ / δᵀ δ, δ the difference of their residuals (3 a sample, by photograph), C the covariance
+/// of the residuals with noise that neighbours share and ghosts' light that is off as a whole. The
+/// evaluator stands at one of the two.
+double scatter_of_difference(const FitEvaluator& evaluator,
+                             const std::vector<std::vector<double>>& difference,
+                             double ghost_error);
+
 /// H⁻¹ M H⁻¹: the covariance of the estimate (White 1980), priors as further data.
 Eigen::MatrixXd covariance_of(const FitInformation& information);
 

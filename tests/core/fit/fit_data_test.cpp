@@ -54,6 +54,46 @@ TEST(FitSpline, CorrelationIsItsOwn) {
     }
 }
 
+TEST(FitSpline, PixelsAreSharpenedByWhatTheyBlur) {
+    // ∫ t² under the spline is 1/4; a pixel of breadth p adds p²/12 to the mean of t² over it.
+    const double p = 0.4;
+    double sharp = 0.0, plain = 0.0, weight = 0.0, all = 0.0;
+    // Averaged over where the pixels lie.
+    for (double phase = -0.5 * p; phase < 0.5 * p; phase += 0.001)
+        for (int k = -8; k <= 8; ++k) {
+            const double t = phase + k * p, mean = t * t + p * p / 12.0;
+            sharp += pixel_weight(t, p) * mean;
+            weight += pixel_weight(t, p);
+            plain += spline(t) * mean;
+            all += spline(t);
+        }
+    EXPECT_NEAR(sharp / weight, 0.25, 2e-4);
+    EXPECT_NEAR(plain / all, 0.25 + p * p / 12.0, 2e-4);  // what there would be otherwise
+}
+
+TEST(FitData, RimsHaveContrastAndEvenPicturesNone) {
+    Photo photo = even_photo(360, 240, 0.25F);
+    for (std::size_t i = 0; i < photo.pixels(); ++i)
+        if (i % 360 >= 180)
+            for (std::size_t c = 0; c < 3; ++c) photo.rgb[3 * i + c] = 0.5F;
+    const FitData data = fit_data(photo, whole_frame(photo), 36.0, 24.0, 60);
+    EXPECT_NEAR(relative_contrast(data, 20 * 60 + 10, 0.0), 0.0, 1e-6);
+    // The step lies between samples 29 and 30; the spline takes 2/3 of it between the two.
+    EXPECT_NEAR(relative_contrast(data, 20 * 60 + 29, 0.0), 0.25 * 2.0 / 3.0 / (0.25 + 0.25 / 6.0),
+                0.01);
+}
+
+TEST(FitData, DarknessCountsNotLessThanAPhoton) {
+    Photo photo = even_photo(360, 240, 0.0F);
+    photo.noise = {.shot = 1e-4, .read = 0.0, .estimated = false};
+    const FitData data = fit_data(photo, whole_frame(photo), 36.0, 24.0, 60);
+    const double photon = 1e-4 * data.inverse_count[20 * 60 + 30];
+    const StableScale scale = stable_scale(data, 20 * 60 + 30, 0.003, 0.0);
+    EXPECT_NEAR(scale.sigma(0.0), photon, 1e-12);
+    // Of the model's error at a level of 0.1.
+    EXPECT_NEAR(stable_scale(data, 20 * 60 + 30, 0.003, 0.1).sigma(-1.0), 3e-4, 1e-9);
+}
+
 TEST(FitData, AnEvenPhotographStaysEven) {
     const Photo photo = even_photo(360, 240, 0.25F);
     const FitData data = fit_data(photo, whole_frame(photo), 36.0, 24.0, 60);
