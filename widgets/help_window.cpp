@@ -123,6 +123,8 @@ bool HelpWindow::show_guide(const QString& panel_title) {
     const QString heading = panel_title.isEmpty() ? QString() : heading_about(panel_title, all);
     if (!heading.isEmpty()) {
         go_to_heading(heading);
+        // Once more when a window that has just come has its size.
+        QTimer::singleShot(0, this, [this, heading] { go_to_heading(heading); });
     }
     return true;
 }

@@ -24,6 +24,7 @@
 #include "widgets/autosave.h"
 #include "widgets/certificate_job.h"
 #include "widgets/file_actions.h"
+#include "widgets/flare_view.h"
 #include "widgets/glass_folders.h"
 #include "widgets/models/ghost_table_model.h"
 #include "widgets/models/note_table_model.h"
@@ -429,6 +430,10 @@ void MainWindow::show_picture(const FlarePicture& picture) {
     picture_is_on_its_way_ = true;
     flare_->show_image(picture.image);
     flare_->set_dimmed(picture.revision != document_.revision());
+    if (!flare_->view()->has_gl()) {  // no frame is swapped
+        picture_is_on_its_way_ = false;
+        status_->show_picture(picture, 0.0);
+    }
 }
 
 bool MainWindow::show_unknown_glass() {

@@ -46,8 +46,9 @@ QWidget* first_field(QWidget& panel) {
         return &panel;
     }
     const auto children = panel.findChildren<QWidget*>();
-    const auto found = std::ranges::find_if(children, [](const QWidget* child) {
-        return child->focusPolicy() != Qt::NoFocus && child->isVisible() && child->isEnabled();
+    const auto found = std::ranges::find_if(children, [&panel](const QWidget* child) {
+        return child->focusPolicy() != Qt::NoFocus && child->isVisibleTo(&panel) &&
+               child->isEnabled();
     });
     return found == children.end() ? &panel : *found;
 }

@@ -31,6 +31,9 @@ struct FileWatchTest : testing::Test {
         lens.surfaces[0].curve = Radius{radius_mm};
         write_lens(lens, file.toStdString());  // aside, then renamed, as most programs do
     }
+    Prescription on_file() const {
+        return document_from_lens(read_lens(file.toStdString()).lens).lens;
+    }
     bool waits_for(const char* words) {
         return QTest::qWaitFor([&] { return banner().text().contains(words); }, soon_ms);
     }
@@ -77,7 +80,7 @@ TEST_F(FileWatchTest, KeepingMineAsksOnceForEachChange) {
     // Saving is an answer too.
     EXPECT_FALSE(document().save_as(document().file()));
     EXPECT_EQ(banner().text(), "");
-    EXPECT_EQ(read_lens(file.toStdString()).lens, before);
+    EXPECT_EQ(on_file(), before);
 }
 
 TEST_F(FileWatchTest, ItsOwnSavingIsNoChange) {
@@ -108,7 +111,7 @@ TEST_F(FileWatchTest, ARemovedFileIsSaidAndSavedAnew) {
     EXPECT_EQ(document().lens(), before);
     EXPECT_TRUE(document().is_modified());
     shown.window.actions()["file.save"].trigger();
-    EXPECT_EQ(read_lens(file.toStdString()).lens, before);
+    EXPECT_EQ(on_file(), before);
     EXPECT_FALSE(document().is_modified());
 }
 

@@ -179,6 +179,8 @@ TEST(Keyboard, F6ReachesEveryPanelAndComesRound) {
 
 TEST(Looks, LettersGrowAndShrinkWithinLimits) {
     OpenWindow shown;
+    settings::set_look({});
+    apply_theme(*qApp, Theme::dark);
     const int usual = QApplication::font().pixelSize();
     for (int k = 0; k < 20; ++k) {
         shown.window.actions()["view.larger_text"].trigger();

@@ -1,5 +1,7 @@
 #include "tests/widgets/program_kit.h"
 
+#include <gtest/gtest.h>
+
 #include <QDir>
 #include <QFile>
 #include <QTest>

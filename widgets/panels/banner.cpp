@@ -94,6 +94,7 @@ QString Banner::text() const { return isHidden() ? QString() : label_->text(); }
 
 void Banner::set_place(const QRect& place) {
     place_ = place;
+    raise();  // panels that were arranged since lie over it
     fit();
 }
 
