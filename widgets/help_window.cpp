@@ -1,5 +1,6 @@
 #include "widgets/help_window.h"
 
+#include <QAbstractTextDocumentLayout>
 #include <QDir>
 #include <QFile>
 #include <QFileInfo>
@@ -10,6 +11,8 @@
 #include <QTextBlock>
 #include <QTextBrowser>
 #include <QTextDocument>
+#include <QTextList>
+#include <QTextTable>
 #include <QTimer>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -25,7 +28,43 @@ namespace ghostlight {
 namespace {
 
 constexpr int width_px = 860, height_px = 820;
+constexpr int above_heading_px = 12;
 constexpr int widest_image_px = 780;  // of the window's width, less margins and scroll bar
+
+}  // namespace
+
+namespace {
+
+/// Room between paragraphs, which Markdown's blocks come without, and quiet tables.
+void space_out(QTextDocument& page) {
+    QTextCursor edit(&page);
+    edit.beginEditBlock();
+    for (QTextBlock block = page.begin(); block.isValid(); block = block.next()) {
+        const bool is_in_table = QTextCursor(block).currentTable() != nullptr;
+        const bool is_heading = block.blockFormat().headingLevel() > 0;
+        const bool is_listed = block.textList() != nullptr;
+        QTextBlockFormat format;
+        format.setTopMargin(is_heading ? 20 : is_in_table ? 2 : 0);
+        format.setBottomMargin(is_in_table || is_listed ? 3 : 9);
+        format.setLineHeight(120, QTextBlockFormat::ProportionalHeight);
+        edit.setPosition(block.position());
+        edit.mergeBlockFormat(format);
+    }
+    const auto frames = page.rootFrame()->childFrames();
+    for (QTextFrame* frame : frames) {
+        if (auto* table = qobject_cast<QTextTable*>(frame)) {
+            QTextTableFormat format = table->format();
+            format.setBorder(0.5);
+            format.setBorderCollapse(true);
+            format.setBorderBrush(current_palette().line);
+            format.setCellPadding(5);
+            format.setCellSpacing(0);
+            format.setBottomMargin(12);
+            table->setFormat(format);
+        }
+    }
+    edit.endEditBlock();
+}
 
 }  // namespace
 
@@ -119,6 +158,7 @@ bool HelpWindow::show_guide(const QString& panel_title) {
     const QStringList all = headings(QString::fromUtf8(file.readAll()));
     setWindowTitle(tr("User guide"));
     browser_->setSource(QUrl::fromLocalFile(path), QTextDocument::MarkdownResource);
+    space_out(*browser_->document());
     come();
     const QString heading = panel_title.isEmpty() ? QString() : heading_about(panel_title, all);
     if (!heading.isEmpty()) {
@@ -140,11 +180,12 @@ void HelpWindow::go_to_heading(const QString& heading) {
     wanted.remove('*').remove('`');
     for (QTextBlock block = browser_->document()->begin(); block.isValid(); block = block.next()) {
         if (block.blockFormat().headingLevel() > 0 && block.text() == wanted) {
-            QTextCursor cursor(block);
-            browser_->setTextCursor(cursor);
-            // The heading at the top, not just somewhere in view.
-            browser_->verticalScrollBar()->setValue(browser_->verticalScrollBar()->value() +
-                                                    browser_->cursorRect().top() - 8);
+            browser_->setTextCursor(QTextCursor(block));
+            // All of the page is laid out by then: it is asked how long it is.
+            QAbstractTextDocumentLayout& layout = *browser_->document()->documentLayout();
+            static_cast<void>(layout.documentSize());
+            const double top_px = layout.blockBoundingRect(block).top();
+            browser_->verticalScrollBar()->setValue(static_cast<int>(top_px) - above_heading_px);
             return;
         }
     }
