@@ -29,6 +29,7 @@ namespace {
 
 constexpr int width_px = 860, height_px = 820;
 constexpr int above_heading_px = 12;
+constexpr int layout_ms = 50, layout_tries = 40;
 constexpr int widest_image_px = 780;  // of the window's width, less margins and scroll bar
 
 }  // namespace
@@ -162,9 +163,8 @@ bool HelpWindow::show_guide(const QString& panel_title) {
     come();
     const QString heading = panel_title.isEmpty() ? QString() : heading_about(panel_title, all);
     if (!heading.isEmpty()) {
-        go_to_heading(heading);
-        // Once more when a window that has just come has its size.
-        QTimer::singleShot(0, this, [this, heading] { go_to_heading(heading); });
+        // When a window that has just come has its size.
+        QTimer::singleShot(0, this, [this, heading] { go_to_heading(heading, layout_tries); });
     }
     return true;
 }
@@ -175,17 +175,21 @@ void HelpWindow::show_page(const QString& title, const QString& html) {
     come();
 }
 
-void HelpWindow::go_to_heading(const QString& heading) {
+void HelpWindow::go_to_heading(const QString& heading, int tries) {
     QString wanted = heading;
     wanted.remove('*').remove('`');
     for (QTextBlock block = browser_->document()->begin(); block.isValid(); block = block.next()) {
         if (block.blockFormat().headingLevel() > 0 && block.text() == wanted) {
             browser_->setTextCursor(QTextCursor(block));
-            // All of the page is laid out by then: it is asked how long it is.
-            QAbstractTextDocumentLayout& layout = *browser_->document()->documentLayout();
-            static_cast<void>(layout.documentSize());
-            const double top_px = layout.blockBoundingRect(block).top();
-            browser_->verticalScrollBar()->setValue(static_cast<int>(top_px) - above_heading_px);
+            const auto& layout = *browser_->document()->documentLayout();
+            QScrollBar& bar = *browser_->verticalScrollBar();
+            bar.setValue(static_cast<int>(layout.blockBoundingRect(block).top()) -
+                         above_heading_px);
+            // A long page is laid out bit by bit, and can be scrolled only so far until then.
+            if (bar.value() == bar.maximum() && tries > 0) {
+                QTimer::singleShot(layout_ms, this,
+                                   [this, heading, tries] { go_to_heading(heading, tries - 1); });
+            }
             return;
         }
     }
