@@ -1,6 +1,9 @@
 # What `cmake --install` puts where besides the programs, and the Debian package that CPack makes
 # of it. Paths are relative to the prefix: the programs find lenses and docs beside themselves
 # (data_directory()), wherever that is.
+
+# Packing builds nothing: ./dev package has built the programs, and tests are not in it.
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 set(id io.github.ghostlight.Ghostlight)
 
 install(DIRECTORY lenses/ DESTINATION share/ghostlight/lenses)

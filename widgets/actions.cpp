@@ -1,5 +1,6 @@
 #include "widgets/actions.h"
 
+#include <QCoreApplication>
 #include <QMenu>
 #include <QMenuBar>
 #include <QWidget>
@@ -88,10 +89,10 @@ std::span<const ActionText> action_texts() { return texts; }
 
 Actions::Actions(QWidget* window) : QObject(window) {
     for (const ActionText& text : texts) {
-        auto* action = new QAction(QString::fromUtf8(text.text), this);
+        auto* action = new QAction(QCoreApplication::translate("Actions", text.text), this);
         action->setObjectName(text.id);
         action->setShortcut(QKeySequence(QString::fromUtf8(text.keys)));
-        const QString tip = QString::fromUtf8(text.tip);
+        const QString tip = QCoreApplication::translate("Actions", text.tip);
         const QString keys = action->shortcut().toString(QKeySequence::NativeText);
         action->setStatusTip(tip);
         action->setToolTip(keys.isEmpty() ? tip : QStringLiteral("%1 (%2)").arg(tip, keys));

@@ -1,5 +1,6 @@
 #include "widgets/help_window.h"
 
+#include <QAbstractTextDocumentLayout>
 #include <QDir>
 #include <QFile>
 #include <QFileInfo>
@@ -10,6 +11,8 @@
 #include <QTextBlock>
 #include <QTextBrowser>
 #include <QTextDocument>
+#include <QTextList>
+#include <QTextTable>
 #include <QTimer>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -25,7 +28,44 @@ namespace ghostlight {
 namespace {
 
 constexpr int width_px = 860, height_px = 820;
+constexpr int above_heading_px = 12;
+constexpr int layout_ms = 50, layout_tries = 40;
 constexpr int widest_image_px = 780;  // of the window's width, less margins and scroll bar
+
+}  // namespace
+
+namespace {
+
+/// Room between paragraphs, which Markdown's blocks come without, and quiet tables.
+void space_out(QTextDocument& page) {
+    QTextCursor edit(&page);
+    edit.beginEditBlock();
+    for (QTextBlock block = page.begin(); block.isValid(); block = block.next()) {
+        const bool is_in_table = QTextCursor(block).currentTable() != nullptr;
+        const bool is_heading = block.blockFormat().headingLevel() > 0;
+        const bool is_listed = block.textList() != nullptr;
+        QTextBlockFormat format;
+        format.setTopMargin(is_heading ? 20 : is_in_table ? 2 : 0);
+        format.setBottomMargin(is_in_table || is_listed ? 3 : 9);
+        format.setLineHeight(120, QTextBlockFormat::ProportionalHeight);
+        edit.setPosition(block.position());
+        edit.mergeBlockFormat(format);
+    }
+    const auto frames = page.rootFrame()->childFrames();
+    for (QTextFrame* frame : frames) {
+        if (auto* table = qobject_cast<QTextTable*>(frame)) {
+            QTextTableFormat format = table->format();
+            format.setBorder(0.5);
+            format.setBorderCollapse(true);
+            format.setBorderBrush(current_palette().line);
+            format.setCellPadding(5);
+            format.setCellSpacing(0);
+            format.setBottomMargin(12);
+            table->setFormat(format);
+        }
+    }
+    edit.endEditBlock();
+}
 
 }  // namespace
 
@@ -119,12 +159,12 @@ bool HelpWindow::show_guide(const QString& panel_title) {
     const QStringList all = headings(QString::fromUtf8(file.readAll()));
     setWindowTitle(tr("User guide"));
     browser_->setSource(QUrl::fromLocalFile(path), QTextDocument::MarkdownResource);
+    space_out(*browser_->document());
     come();
     const QString heading = panel_title.isEmpty() ? QString() : heading_about(panel_title, all);
     if (!heading.isEmpty()) {
-        go_to_heading(heading);
-        // Once more when a window that has just come has its size.
-        QTimer::singleShot(0, this, [this, heading] { go_to_heading(heading); });
+        // When a window that has just come has its size.
+        QTimer::singleShot(0, this, [this, heading] { go_to_heading(heading, layout_tries); });
     }
     return true;
 }
@@ -135,16 +175,21 @@ void HelpWindow::show_page(const QString& title, const QString& html) {
     come();
 }
 
-void HelpWindow::go_to_heading(const QString& heading) {
+void HelpWindow::go_to_heading(const QString& heading, int tries) {
     QString wanted = heading;
     wanted.remove('*').remove('`');
     for (QTextBlock block = browser_->document()->begin(); block.isValid(); block = block.next()) {
         if (block.blockFormat().headingLevel() > 0 && block.text() == wanted) {
-            QTextCursor cursor(block);
-            browser_->setTextCursor(cursor);
-            // The heading at the top, not just somewhere in view.
-            browser_->verticalScrollBar()->setValue(browser_->verticalScrollBar()->value() +
-                                                    browser_->cursorRect().top() - 8);
+            browser_->setTextCursor(QTextCursor(block));
+            const auto& layout = *browser_->document()->documentLayout();
+            QScrollBar& bar = *browser_->verticalScrollBar();
+            bar.setValue(static_cast<int>(layout.blockBoundingRect(block).top()) -
+                         above_heading_px);
+            // A long page is laid out bit by bit, and can be scrolled only so far until then.
+            if (bar.value() == bar.maximum() && tries > 0) {
+                QTimer::singleShot(layout_ms, this,
+                                   [this, heading, tries] { go_to_heading(heading, tries - 1); });
+            }
             return;
         }
     }

@@ -24,7 +24,7 @@ class HelpWindow : public QWidget {
 
    private:
     class Browser;
-    void go_to_heading(const QString& heading);
+    void go_to_heading(const QString& heading, int tries);
     void come();
 
     Browser* pages_;

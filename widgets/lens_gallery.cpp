@@ -53,10 +53,10 @@ LensGallery::LensGallery(std::vector<BundledLens> lenses, const QString& cache, 
     }
     list_->setCurrentRow(0);
     connect(list_, &QListWidget::itemActivated, this, &LensGallery::choose);
-    thumbnails_ = std::make_unique<LensThumbnails>(std::move(files), cache, devicePixelRatioF());
-    connect(thumbnails_.get(), &LensThumbnails::flare_made, this,
+    thumbnails_ = new LensThumbnails(std::move(files), cache, devicePixelRatioF(), this);
+    connect(thumbnails_, &LensThumbnails::flare_made, this,
             [this](int index, const QImage& flare) { show_card(index, flare, {}); });
-    connect(thumbnails_.get(), &LensThumbnails::failed, this,
+    connect(thumbnails_, &LensThumbnails::failed, this,
             [this](int index, const QString& reason) { show_card(index, {}, reason); });
     QTimer::singleShot(0, this, [this] { draw_layouts(0); });
 }

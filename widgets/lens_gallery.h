@@ -37,7 +37,7 @@ class LensGallery : public QDialog {
     std::vector<QImage> layouts_;
     std::vector<QImage> flares_;
     QListWidget* list_;
-    std::unique_ptr<LensThumbnails> thumbnails_;
+    LensThumbnails* thumbnails_ = nullptr;
 };
 
 }  // namespace ghostlight

@@ -53,6 +53,23 @@ QWidget* first_field(QWidget& panel) {
     return found == children.end() ? &panel : *found;
 }
 
+/// In the order in which they came: that of their parent's children changes whenever one is raised.
+QList<QDockWidget*> docks_in_turn(QWidget& window) {
+    constexpr const char* turn = "turn";
+    QList<QDockWidget*> docks = window.findChildren<QDockWidget*>();
+    int next = 0;
+    for (const QDockWidget* dock : docks) {
+        next = std::max(next, dock->property(turn).toInt() + 1);
+    }
+    for (QDockWidget* dock : docks) {
+        if (!dock->property(turn).isValid()) {
+            dock->setProperty(turn, next++);
+        }
+    }
+    std::ranges::sort(docks, {}, [](const QDockWidget* d) { return d->property(turn).toInt(); });
+    return docks;
+}
+
 bool holds_focus(const QWidget& panel) {
     const QWidget* focus = QApplication::focusWidget();
     return focus != nullptr && (focus == &panel || panel.isAncestorOf(focus));
@@ -62,6 +79,7 @@ bool holds_focus(const QWidget& panel) {
 
 void MainWindow::connect_guidance() {
     new FileWatch(document_, *banner_, this);
+    docks_in_turn(*this);
     actions_.on("file.gallery", [this] { show_gallery(); });
     actions_.on("help.guide", [this] { show_guide(); });
     actions_.on("help.commands", [this] { show_commands(); });
@@ -176,7 +194,7 @@ void MainWindow::show_gallery() {
 
 void MainWindow::go_to_panel(int step) {
     QList<QWidget*> panels{scene_bar_, flare_};
-    for (QDockWidget* dock : findChildren<QDockWidget*>()) {
+    for (QDockWidget* dock : docks_in_turn(*this)) {
         if (!dock->isHidden() && dock->widget() != nullptr) {
             panels << dock->widget();
         }

@@ -16,6 +16,7 @@
 #include "core/io/image_file.h"
 #include "core/io/lens_file.h"
 #include "core/io/table_file.h"
+#include "widgets/lens_thumbnails.h"
 #include "widgets/main_window.h"
 #include "widgets/models/ghost_table_model.h"
 #include "widgets/panels/banner.h"
@@ -83,6 +84,34 @@ void write_panels(MainWindow& window, const std::filesystem::path& folder, Snaps
     window.restoreState(places);
 }
 
+/// The windows that come by an action, as window_NAME.png.
+void write_windows(MainWindow& window, const std::filesystem::path& folder) {
+    constexpr std::pair<const char*, const char*> windows[] = {{"help.guide", "help"},
+                                                               {"help.commands", "command_palette"},
+                                                               {"file.gallery", "gallery"},
+                                                               {"help.tour", "tour"}};
+    for (const auto& [action, name] : windows) {
+        window.actions()[action].trigger();
+        auto* shown = window.findChild<QWidget*>(name);
+        if (shown == nullptr) {
+            throw Error(std::string("no window ") + name);
+        }
+        if (auto* thumbnails = shown->findChild<LensThumbnails*>()) {
+            QEventLoop until_drawn;
+            QObject::connect(thumbnails, &LensThumbnails::finished, &until_drawn,
+                             &QEventLoop::quit);
+            QTimer::singleShot(timeout_ms, &until_drawn, &QEventLoop::quit);
+            until_drawn.exec();
+        }
+        run_events(drawing_ms);
+        const bool is_inside = !shown->isWindow();
+        write_picture(is_inside ? window : *shown,
+                      folder / (std::string("window_") + name + ".png"));
+        shown->close();
+        run_events(drawing_ms);
+    }
+}
+
 }  // namespace
 
 bool wait_until_settled(MainWindow& window, int limit_ms) {
@@ -109,6 +138,9 @@ void write_snapshot(MainWindow& window, const std::filesystem::path& folder,
     run_events(drawing_ms);
     write_picture(window, folder / "workbench.png");
     write_panels(window, folder, panels);
+    if (panels == SnapshotPanels::every) {
+        write_windows(window, folder);
+    }
     const auto table = window.ghost_panel().model().table();
     if (!table || window.ghost_panel().model().is_stale() || !window.picture()) {
         throw Error(window.banner().text().isEmpty() ? std::string("there is nothing to show")

@@ -9,8 +9,9 @@ class MainWindow;
 enum class SnapshotPanels { tabbed, every };
 
 /// Waits until the window shows its lens, and writes workbench.png, the panels that share a place,
-/// or every one, as panel_NAME.png, ghosts.csv and flare.exr into a folder. Throws Error when
-/// something fails; of a lens that cannot be traced the pictures are written before.
+/// or every one, as panel_NAME.png (and then help, commands, gallery and tour as window_NAME.png),
+/// ghosts.csv and flare.exr into a folder. Throws Error when something fails; of a lens that cannot
+/// be traced the pictures are written before.
 void write_snapshot(MainWindow& window, const std::filesystem::path& folder,
                     SnapshotPanels panels = SnapshotPanels::tabbed);
 

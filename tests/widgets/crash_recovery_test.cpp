@@ -20,8 +20,8 @@ namespace {
 
 constexpr xcb_keysym_t key_i = 0x69, key_f6 = 0xffc3;
 
-struct CrashRecovery : testing::Test {
-    CrashRecovery() {
+struct CrashRecoverySlow : testing::Test {
+    CrashRecoverySlow() {
         // No tour, no trial of the engines: it is about the edits.
         QDir(home.path()).mkpath("XDG_CONFIG_HOME/ghostlight");
         QFile settings(home.filePath("XDG_CONFIG_HOME/ghostlight/ghostlight.conf"));
@@ -33,7 +33,7 @@ struct CrashRecovery : testing::Test {
     QTemporaryDir home;
 };
 
-TEST_F(CrashRecovery, AKillCostsNoMoreThanTheLastEdits) {
+TEST_F(CrashRecoverySlow, AKillCostsNoMoreThanTheLastEdits) {
     const std::size_t rows = read_lens(test::tessar()).lens.surfaces.size();
     {
         test::RunningProgram program(home, {QString::fromStdString(test::tessar().string())});
@@ -71,7 +71,7 @@ TEST_F(CrashRecovery, AKillCostsNoMoreThanTheLastEdits) {
     EXPECT_EQ(QDir(unsaved()).entryList({"*.json"}).size(), 1);
 }
 
-TEST_F(CrashRecovery, TheNextWindowOffersAndRecovers) {
+TEST_F(CrashRecoverySlow, TheNextWindowOffersAndRecovers) {
     Prescription lens = read_lens(test::tessar()).lens;
     lens.surfaces[0].curve = Radius{44.0};
     const QString folder = Autosave::default_folder();
@@ -99,7 +99,7 @@ TEST_F(CrashRecovery, TheNextWindowOffersAndRecovers) {
     EXPECT_TRUE(QDir(folder).removeRecursively());
 }
 
-TEST_F(CrashRecovery, TheWindowsLayoutIsKeptAndRestored) {
+TEST_F(CrashRecoverySlow, TheWindowsLayoutIsKeptAndRestored) {
     {
         MainWindow window(true);
         window.show();
@@ -116,7 +116,7 @@ TEST_F(CrashRecovery, TheWindowsLayoutIsKeptAndRestored) {
 }
 
 /// Under a Qt or a driver without OpenGL 3.2 the program itself starts, shows and is edited.
-TEST_F(CrashRecovery, TheProgramRunsWithoutOpenGl) {
+TEST_F(CrashRecoverySlow, TheProgramRunsWithoutOpenGl) {
     for (const std::pair<QString, QString>& without :
          {std::pair<QString, QString>{"QT_XCB_GL_INTEGRATION", "none"},
           std::pair<QString, QString>{"MESA_GL_VERSION_OVERRIDE", "2.1"}}) {

@@ -163,12 +163,14 @@ TEST(Keyboard, F6ReachesEveryPanelAndComesRound) {
         }
         return nullptr;
     };
+    QString names;
     for (int k = 0; k < visible; ++k) {
         window.actions()["view.next_panel"].trigger();
         QTest::qWait(10);
         reached.insert(place());
+        names += (place() == nullptr ? QStringLiteral("nothing") : place()->objectName()) + ' ';
     }
-    EXPECT_EQ(reached.size(), static_cast<std::size_t>(visible));
+    EXPECT_EQ(reached.size(), static_cast<std::size_t>(visible)) << qPrintable(names);
     EXPECT_FALSE(reached.contains(nullptr));
     const QWidget* last = place();
     window.actions()["view.next_panel"].trigger();

@@ -4,6 +4,7 @@
 
 #include <QDockWidget>
 #include <QFile>
+#include <QScrollBar>
 #include <QTableView>
 #include <QTextBlock>
 #include <QTextBrowser>
@@ -57,6 +58,7 @@ TEST(HelpWindow, F1OpensThePageOfThePanelInUse) {
     window.activateWindow();
     ASSERT_TRUE(QTest::qWaitForWindowActive(&window));
     window.ghost_panel().table().setFocus();
+    ASSERT_EQ(QApplication::focusWidget(), &window.ghost_panel().table());
     QTest::keyClick(&window.ghost_panel().table(), Qt::Key_F1);
     auto* help = window.findChild<HelpWindow*>();
     ASSERT_NE(help, nullptr);
@@ -64,7 +66,9 @@ TEST(HelpWindow, F1OpensThePageOfThePanelInUse) {
     const auto shows = [&](const char* heading) {
         return QTest::qWaitFor([&] { return help->heading_in_view() == heading; }, 5000);
     };
-    EXPECT_TRUE(shows("The ghost table")) << qPrintable(help->heading_in_view());
+    EXPECT_TRUE(shows("The ghost table"))
+        << qPrintable(help->heading_in_view()) << help->browser().verticalScrollBar()->value()
+        << " of " << help->browser().verticalScrollBar()->maximum();
     window.activateWindow();
     ASSERT_TRUE(QTest::qWaitForWindowActive(&window));
     window.flare_panel().view()->setFocus();

@@ -74,7 +74,7 @@ double highlighted_light(const FlareImage& image) {
     return sum;
 }
 
-TEST(Journey, ABetterCoatingIsSeenInTableAndPictureAndExported) {
+TEST(JourneySlow, ABetterCoatingIsSeenInTableAndPictureAndExported) {
     OpenWindow shown(test::bundled("tessar_brendel_100_f2.8.json"));
     MainWindow& window = shown.window;
     ASSERT_TRUE(shown.settle());
@@ -131,12 +131,14 @@ TEST(Journey, BrokenFilesThatAreDroppedAreRefusedWithAReason) {
     const QTemporaryDir folder;
     OpenWindow shown(test::tessar());
     MainWindow& window = shown.window;
-    window.files().ask_about_unsaved = [] { return FileActions::Answer::discard; };
     constexpr int wanted = 200;
-    int refused = 0, opened = 0;
+    int dropped = 0;
     std::set<QString> reasons;
     const std::vector<FuzzedReader> readers = fuzzed_readers();
-    for (std::uint64_t number = 0; refused < wanted && number < 40 * wanted; ++number) {
+    const DocumentState before = window.document().state();
+    const auto file = window.document().file();
+    const auto revision = window.document().revision();
+    for (std::uint64_t number = 0; dropped < wanted && number < 40 * wanted; ++number) {
         const FuzzedReader& reader = readers[number % readers.size()];
         const QString name = QString::fromStdString(reader.file);
         const std::string bytes = mutated(reader, number);
@@ -146,26 +148,22 @@ TEST(Journey, BrokenFilesThatAreDroppedAreRefusedWithAReason) {
         }
         const QString path = folder.filePath(QString::number(number) + "." + name.section('.', -1));
         write_file_safely(path.toStdString(), bytes);
-        const DocumentState before = window.document().state();
-        const auto file = window.document().file();
-        const auto revision = window.document().revision();
-        drop(window, path);
-        if (window.document().revision() != revision) {
-            ++opened;  // the mutation left a lens that can be read
-            ASSERT_TRUE(window.open(test::tessar()));
-            continue;
+        try {
+            read_lens(path.toStdString());
+            continue;  // the mutation left a lens
+        } catch (const Error&) {
+            ++dropped;
         }
-        ++refused;
-        EXPECT_EQ(window.document().state(), before) << path.toStdString();
+        drop(window, path);
+        ASSERT_EQ(window.document().revision(), revision) << path.toStdString();
         EXPECT_EQ(window.document().file(), file);
-        EXPECT_FALSE(window.banner().text().isEmpty()) << path.toStdString();
         EXPECT_TRUE(window.banner().text().contains(QString::number(number)))
             << "names the file: " << qPrintable(window.banner().text());
         reasons.insert(window.banner().text().remove(QString::number(number)));
         QFile::remove(path);
-        QApplication::processEvents();
     }
-    EXPECT_EQ(refused, wanted) << opened << " were read";
+    EXPECT_EQ(dropped, wanted);
+    EXPECT_EQ(window.document().state(), before);
     EXPECT_GT(reasons.size(), 10U) << "reasons that say what is wrong differ";
     EXPECT_TRUE(shown.settle());
 }
