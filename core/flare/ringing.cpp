@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "core/elapsed.h"
@@ -11,6 +10,7 @@
 #include "core/flare/ghost_mesh.h"
 #include "core/flare/grid_light.h"
 #include "core/flare/picture_levels.h"
+#include "core/flare/rim_profile.h"
 #include "core/ghosts/ghost_probe.h"
 #include "core/parallel.h"
 #include "core/units.h"
@@ -18,19 +18,12 @@
 namespace ghostlight {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr int grid_cells = 40;   ///< across a ghost's beam, its shadow's side included
 constexpr int weight_cells = 4;  ///< for the polarisation's share
 constexpr int band_rows = 16;
 /// Below this Fresnel number the rim's curvature shows in the fringes: the mask is propagated.
 constexpr double whole_mask_below = 20.0;
 constexpr int propagated_colors = 5;
-/// How far the profile is followed, in Fresnel's w: into the shadow, and into the light before the
-/// taper ends. Colours have run into one another by then; of one wavelength more of it shows.
-constexpr double into_shadow = 2.5, into_light = 6.0, into_light_gray = 14.0;
-/// Fringes finer than a pixel lie beyond w = 2 × pixels per w.
-constexpr double finest_fringe_px = 1.0;
-constexpr double tapered_share = 0.35;  ///< of the depth in the light
 /// Ghosts with less of the layer's light are left as they are.
 constexpr double least_flux_share = 1e-4;
 /// Those whose fringes change least are left out while what they would change adds up to less than
@@ -42,136 +35,7 @@ constexpr double change_per_w = 1.04;
 constexpr double least_px_per_w = 8.0;
 /// A rim drawn at half the size and brought up bilinearly is a ramp this many of its pixels long.
 constexpr double coarse_rim_px = 2.2;
-constexpr int channels = 4;
-using Color = std::array<float, channels>;
-
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
-
-/// straight_edge() over w, read often.
-class EdgeTable {
-   public:
-    EdgeTable() {
-        for (int k = 0; k <= count; ++k) values_.push_back(straight_edge(first + k * step));
-    }
-    double at(double w) const {
-        const double place = (w - first) / step;
-        if (place <= 0.0) return 0.0;
-        if (place >= count) return 1.0;
-        const int k = static_cast<int>(place);
-        return std::lerp(values_[idx(k)], values_[idx(k) + 1], place - k);
-    }
-
-   private:
-    static constexpr double first = -4.0, step = 0.01;
-    static constexpr int count = 2400;  // up to w = 20
-    std::vector<double> values_;
-};
-const EdgeTable& edge_table() {
-    static const EdgeTable table;
-    return table;
-}
-
-/// What one edge changes, over the depth in semi-diameters: profile − 1 in the light, the profile
-/// in the shadow, in every channel as a share of the ghost's irradiance there.
-class EdgeChange {
-   public:
-    static constexpr int steps = 512;
-    double shadow = 0.0, light = 0.0;  ///< depths it reaches to
-    std::vector<Color> profile;        ///< the profile itself, tapered into 0 and 1
-
-    Color at(double depth) const {
-        const double place = (depth + shadow) / (shadow + light) * steps;
-        if (place <= 0.0) return Color{};
-        if (place >= steps) return Color{1.0F, 1.0F, 1.0F, 1.0F};
-        const int k = static_cast<int>(place);
-        const auto part = static_cast<float>(place - k);
-        Color value;
-        for (std::size_t c = 0; c < channels; ++c)
-            value[c] = profile[idx(k)][c] + part * (profile[idx(k) + 1][c] - profile[idx(k)][c]);
-        return value;
-    }
-};
-
-/// Colour shares of a ghost's light: of each spectral sample in each channel, summing to the
-/// ghost's colour over its irradiance.
-using ColorShares = std::vector<std::array<double, channels>>;
-
-EdgeChange edge_change(const FlareScene& scene, const ColorShares& shares, double fresnel_number,
-                       double px_per_w, bool round) {
-    const double main_nm = scene.system().wavelength_nm;
-    const double per_depth = std::sqrt(2.0 * fresnel_number);
-    EdgeChange change;
-    change.shadow = into_shadow / per_depth;
-    const double most = scene.is_gray() ? into_light_gray : into_light;
-    change.light = std::min(0.9, std::min(most, 2.0 * px_per_w / finest_fringe_px) / per_depth);
-    change.profile.resize(EdgeChange::steps + 1);
-    const double step = (change.shadow + change.light) / EdgeChange::steps;
-    std::array<double, channels> sum{}, room{}, whole{};
-    std::vector<double> scales;
-    for (std::size_t w = 0; w < shares.size(); ++w) {
-        scales.push_back(std::sqrt(main_nm / scene.samples[w].wavelength_nm));
-        for (std::size_t c = 0; c < channels; ++c) whole[c] += shares[w][c];
-    }
-    auto taper = [&](double depth) {
-        const double part = depth >= 0.0 ? (change.light - depth) / (tapered_share * change.light)
-                                         : (change.shadow + depth) / (0.5 * change.shadow);
-        const double t = std::clamp(part, 0.0, 1.0);
-        return t * t * (3.0 - 2.0 * t);
-    };
-    // A bump in the light takes what keeps the sum at zero; a rim that is round has less of each
-    // depth than of the one before.
-    auto bump = [&](double depth) {
-        const double t = std::clamp(depth / change.light, 0.0, 1.0);
-        return t * t * (1.0 - t) * (1.0 - t);
-    };
-    for (int k = 0; k <= EdgeChange::steps; ++k) {
-        const double depth = k * step - change.shadow;
-        const double kept = taper(depth), length = round ? 1.0 - depth : 1.0;
-        const double lit = depth > 0.0 ? 1.0 : 0.0;
-        std::array<double, channels> values{};
-        for (std::size_t w = 0; w < shares.size(); ++w) {
-            const double step_of_w = edge_table().at(depth * per_depth * scales[w]) - lit;
-            for (std::size_t c = 0; c < channels; ++c) values[c] += shares[w][c] * step_of_w;
-        }
-        for (std::size_t c = 0; c < channels; ++c) {
-            const double changed = whole[c] != 0.0 ? kept * values[c] / whole[c] : 0.0;
-            change.profile[idx(k)][c] = static_cast<float>(lit + changed);
-            sum[c] += changed * length;
-            room[c] += bump(depth) * length;
-        }
-    }
-    for (int k = 0; k <= EdgeChange::steps; ++k) {
-        const double depth = k * step - change.shadow;
-        for (std::size_t c = 0; c < channels; ++c)
-            change.profile[idx(k)][c] -= static_cast<float>(bump(depth) * sum[c] / room[c]);
-    }
-    return change;
-}
-
-/// An edge of the stop in semi-diameters: a blade's line, or its arc, or all of a round stop.
-struct EdgeLine {
-    double nx = 0.0, ny = 0.0;  ///< outwards
-    double distance = 1.0;      ///< of a straight one from the middle
-    double back = 0.0, radius = 1.0;
-    bool is_straight = false;
-};
-std::vector<EdgeLine> edge_lines(const StopMask& stop) {
-    if (stop.blades < 3) return {EdgeLine{}};
-    std::vector<EdgeLine> lines;
-    const double half = pi / stop.blades;
-    for (int edge = 0; edge < stop.blades; ++edge) {
-        const double middle = stop.rotation_rad + half * (2 * edge + 1);
-        EdgeLine line{std::cos(middle), std::sin(middle), std::cos(half), 0.0, 1.0, true};
-        if (stop.blade_curvature > 0.0) {
-            line.is_straight = false;
-            line.radius = 1.0 / stop.blade_curvature;
-            line.back =
-                std::sqrt(line.radius * line.radius - std::pow(std::sin(half), 2)) - std::cos(half);
-        }
-        lines.push_back(line);
-    }
-    return lines;
-}
 
 /// A rung ghost ready to be drawn: triangles of rays with where they land, where they met the stop,
 /// their light per area, and what clips them.
@@ -189,9 +53,9 @@ struct Rung {
     StopMask stop;  ///< turned into the beam's plane
     std::vector<EdgeLine> edges;
     EdgeChange edge;
-    std::array<double, channels> color{};  ///< over irradiance
-    std::vector<PropagatedMask> masks;     ///< by colour, where it is propagated
-    std::vector<std::array<double, channels>> mask_shares;
+    std::array<double, rim_channels> color{};  ///< over irradiance
+    std::vector<PropagatedMask> masks;         ///< by colour, where it is propagated
+    std::vector<std::array<double, rim_channels>> mask_shares;
     int level = 0, most_level = 0;  ///< it is drawn at, and the one that its picture has
     double rim_px = 1.0;            ///< how softly the picture has its rim
     double reach = 1.0;             ///< of what is drawn, in semi-diameters from the middle
@@ -200,17 +64,7 @@ struct Rung {
     std::vector<std::vector<std::uint32_t>> by_band;
 };
 
-/// Depth in semi-diameters, and its direction inwards.
-struct Edge {
-    double depth, nx, ny;
-};
-Edge edge_at(const EdgeLine& line, double u, double v) {
-    if (line.is_straight) return {line.distance - u * line.nx - v * line.ny, -line.nx, -line.ny};
-    const double x = u + line.back * line.nx, y = v + line.back * line.ny, r = std::hypot(x, y);
-    return {line.radius - r, r > 0.0 ? -x / r : 0.0, r > 0.0 ? -y / r : 0.0};
-}
-
-/// What is drawn into: a picture, or a level of one with its four channels side by side.
+/// What is drawn into: a picture, or a level of one with its four rim_channels side by side.
 struct Canvas {
     int width_px = 0, height_px = 0;
     float* irradiance = nullptr;
@@ -222,20 +76,6 @@ struct Canvas {
 /// Share of a pixel inside an edge.
 double coverage(double depth, double depth_per_px) {
     return std::clamp(0.5 + depth / std::max(depth_per_px, 1e-12), 0.0, 1.0);
-}
-
-ColorShares color_shares(const FlareScene& scene, const std::vector<double>& spectrum) {
-    ColorShares shares(scene.samples.size());
-    double whole = 0.0;
-    for (std::size_t w = 0; w < shares.size(); ++w) whole += scene.samples[w].weight * spectrum[w];
-    for (std::size_t w = 0; w < shares.size(); ++w) {
-        const double part = whole > 0.0 ? scene.samples[w].weight * spectrum[w] / whole : 0.0;
-        const bool gray = scene.is_gray();
-        shares[w] = {part * (gray ? 1.0 : scene.colors[w].r),
-                     part * (gray ? 1.0 : scene.colors[w].g),
-                     part * (gray ? 1.0 : scene.colors[w].b), part};
-    }
-    return shares;
 }
 
 class Ringing {
@@ -291,7 +131,7 @@ class Ringing {
         const std::vector<double> spectrum = mean_spectrum(grid, weights);
         const ColorShares shares = color_shares(scene_, spectrum);
         for (const auto& share : shares)
-            for (std::size_t c = 0; c < channels; ++c) rung.color[c] += share[c];
+            for (std::size_t c = 0; c < rim_channels; ++c) rung.color[c] += share[c];
         const double px_per_w = fringes.first_fringe_px / first_maximum_w;
         if (!rung.report.propagated)
             rung.edge =
@@ -367,12 +207,12 @@ class Ringing {
         const std::size_t samples = shares.size();
         const std::size_t count = std::min<std::size_t>(samples, propagated_colors);
         for (std::size_t p = 0; p < count; ++p) {
-            std::array<double, channels> share{};
+            std::array<double, rim_channels> share{};
             double middle_nm = 0.0, weight = 0.0;
             for (std::size_t w = p * samples / count; w < (p + 1) * samples / count; ++w) {
-                for (std::size_t c = 0; c < channels; ++c) share[c] += shares[w][c];
-                middle_nm += shares[w][channels - 1] * scene_.samples[w].wavelength_nm;
-                weight += shares[w][channels - 1];
+                for (std::size_t c = 0; c < rim_channels; ++c) share[c] += shares[w][c];
+                middle_nm += shares[w][rim_channels - 1] * scene_.samples[w].wavelength_nm;
+                weight += shares[w][rim_channels - 1];
             }
             if (!(weight > 0.0)) continue;
             auto mask =
@@ -525,12 +365,12 @@ class Ringing {
                 if (mix(p.clear, q.clear, r.clear) < 0.0) continue;
                 const double u = mix(p.u, q.u, r.u), v = mix(p.v, q.v, r.v);
                 const double light = mix(p.light, q.light, r.light);
-                const Color change = rung.report.propagated
-                                         ? mask_change(rung, u, v, ux, uy, vx, vy)
-                                         : rim_change(rung, u, v, ux, uy, vx, vy);
+                const RimColor change = rung.report.propagated
+                                            ? mask_change(rung, u, v, ux, uy, vx, vy)
+                                            : rim_change(rung, u, v, ux, uy, vx, vy);
                 const std::size_t pixel = idx(row) * idx(canvas.width_px) + idx(column);
                 canvas.irradiance[canvas.irradiance_step * pixel] +=
-                    static_cast<float>(light) * change[channels - 1];
+                    static_cast<float>(light) * change[rim_channels - 1];
                 for (std::size_t k = 0; k < 3; ++k)
                     canvas.rgb[canvas.rgb_step * pixel + k] +=
                         static_cast<float>(light) * change[k];
@@ -538,43 +378,43 @@ class Ringing {
         }
     }
 
-    Color rim_change(const Rung& rung, double u, double v, double ux, double uy, double vx,
-                     double vy) const {
-        Color profile{1.0F, 1.0F, 1.0F, 1.0F};
+    RimColor rim_change(const Rung& rung, double u, double v, double ux, double uy, double vx,
+                        double vy) const {
+        RimColor profile{1.0F, 1.0F, 1.0F, 1.0F};
         double covered = 1.0;
         for (const EdgeLine& line : rung.edges) {
-            const Edge edge = edge_at(line, u, v);
+            const EdgeDepth edge = edge_at(line, u, v);
             if (edge.depth > rung.edge.light + 0.5) continue;
-            const Color own = rung.edge.at(edge.depth);
-            for (std::size_t c = 0; c < channels; ++c) profile[c] *= own[c];
+            const RimColor own = rung.edge.at(edge.depth);
+            for (std::size_t c = 0; c < rim_channels; ++c) profile[c] *= own[c];
             const double slope =
                 std::abs(edge.nx * ux + edge.ny * vx) + std::abs(edge.nx * uy + edge.ny * vy);
             covered *= coverage(edge.depth, slope * rung.rim_px);
         }
-        Color change;
-        for (std::size_t c = 0; c < channels; ++c)
+        RimColor change;
+        for (std::size_t c = 0; c < rim_channels; ++c)
             change[c] =
                 static_cast<float>(rung.color[c]) * (profile[c] - static_cast<float>(covered));
         return change;
     }
 
-    Color mask_change(const Rung& rung, double u, double v, double ux, double uy, double vx,
-                      double vy) const {
-        Color change{};
+    RimColor mask_change(const Rung& rung, double u, double v, double ux, double uy, double vx,
+                         double vy) const {
+        RimColor change{};
         // What the picture holds: the mask without its dirt, its rim as pixels cover it.
         double lit = 1.0;
         if (rung.stop.picture &&
             !stop_passes(rung.stop, u * rung.stop.semi_diameter_mm, v * rung.stop.semi_diameter_mm))
             lit = 0.0;
         for (const EdgeLine& line : rung.edges) {
-            const Edge edge = edge_at(line, u, v);
+            const EdgeDepth edge = edge_at(line, u, v);
             const double slope =
                 std::abs(edge.nx * ux + edge.ny * vx) + std::abs(edge.nx * uy + edge.ny * vy);
             lit *= coverage(edge.depth, slope * rung.rim_px);
         }
         for (std::size_t p = 0; p < rung.masks.size(); ++p) {
             const double irradiance = rung.masks[p].at(u, v);
-            for (std::size_t c = 0; c < channels; ++c)
+            for (std::size_t c = 0; c < rim_channels; ++c)
                 change[c] += static_cast<float>(rung.mask_shares[p][c] * (irradiance - lit));
         }
         return change;
@@ -632,7 +472,8 @@ bool draw_rung(const Ringing& ringing, const std::vector<Rung>& rung,
     for (int level = 0; level <= coarsest; ++level) {
         const RasterSize size = level_size(frame, level);
         if (level > 0)
-            levels[idx(level)].assign(idx(size.width_px) * idx(size.height_px) * channels, 0.0F);
+            levels[idx(level)].assign(idx(size.width_px) * idx(size.height_px) * rim_channels,
+                                      0.0F);
         for (int band = 0; band < bands_of(level); ++band) tasks.push_back({level, band});
     }
     if (!parallel_for(tasks.size(), threads, stop, [&](std::size_t t) {
@@ -640,24 +481,26 @@ bool draw_rung(const Ringing& ringing, const std::vector<Rung>& rung,
             const RasterSize size = level_size(frame, level);
             float* own = levels[idx(level)].data();
             const Canvas canvas =
-                level == 0 ? Canvas{size.width_px,           size.height_px,
-                                    image.irradiance.data(), 1,
-                                    image.rgb.data(),        3}
-                           : Canvas{size.width_px, size.height_px, own + channels - 1, channels,
-                                    own,           channels};
+                level == 0
+                    ? Canvas{size.width_px,           size.height_px,
+                             image.irradiance.data(), 1,
+                             image.rgb.data(),        3}
+                    : Canvas{size.width_px, size.height_px, own + rim_channels - 1, rim_channels,
+                             own,           rim_channels};
             for (std::size_t g = 0; g < rung.size(); ++g)
                 if (drawn[g] && rung[g].level == level) ringing.draw(rung[g], band, canvas);
         }))
         return false;
     const int bands = bands_of(0);
-    if (coarsest > 0) levels[0].assign(idx(frame.width_px) * idx(frame.height_px) * channels, 0.0F);
+    if (coarsest > 0)
+        levels[0].assign(idx(frame.width_px) * idx(frame.height_px) * rim_channels, 0.0F);
     for (int level = coarsest - 1; level >= 0; --level)
         if (!parallel_for(idx(bands_of(level)), threads, stop, [&](std::size_t b) {
                 const RasterSize size = level_size(frame, level);
                 const int first = static_cast<int>(b) * band_rows;
-                add_coarser_rows<channels>(levels[idx(level) + 1], level_size(frame, level + 1),
-                                           size, first, std::min(first + band_rows, size.height_px),
-                                           levels[idx(level)]);
+                add_coarser_rows<rim_channels>(
+                    levels[idx(level) + 1], level_size(frame, level + 1), size, first,
+                    std::min(first + band_rows, size.height_px), levels[idx(level)]);
             }))
             return false;
     std::vector<double> sums(idx(bands), 0.0);
@@ -667,9 +510,9 @@ bool draw_rung(const Ringing& ringing, const std::vector<Rung>& rung,
                                               idx(frame.width_px) * idx(frame.height_px));
             for (std::size_t k = first; k < last; ++k) {
                 if (coarsest > 0) {
-                    image.irradiance[k] += levels[0][channels * k + channels - 1];
+                    image.irradiance[k] += levels[0][rim_channels * k + rim_channels - 1];
                     for (std::size_t c = 0; c < 3; ++c)
-                        image.rgb[3 * k + c] += levels[0][channels * k + c];
+                        image.rgb[3 * k + c] += levels[0][rim_channels * k + c];
                 }
                 // Where the picture's own rim is softer than the fringes' a trace would be below
                 // zero.
