@@ -53,8 +53,8 @@ class ColorBand {
     void add(std::span<const ColorEdge<C>> edges, std::span<const std::uint32_t> chosen,
              bool open_right = false);
     void add(const ColorPoint<C>& point);
-    /// Writes the mean values of the pixels that were touched, C a pixel, row by row, and leaves
-    /// the others; clears the accumulators.
+    /// Adds the mean values of the pixels that were touched, C a pixel, row by row; clears the
+    /// accumulators.
     void resolve(std::span<float> pixels);
 
    private:

@@ -167,7 +167,7 @@ namespace ghostlight::GHOSTLIGHT_JOIN(kernels_, GHOSTLIGHT_ISA) {
                 slope += load<C>(cells[i].slope);
                 double value[C];
                 store<C>(load<C>(cells[i].now) + level + (i + 0.5) * slope, value);
-                for (int c = 0; c < C; ++c) *out++ = static_cast<float>(value[c]);
+                for (int c = 0; c < C; ++c) *out++ += static_cast<float>(value[c]);
             }
             // Two more: an edge in the last column changes the next one, too.
             __builtin_memset(

@@ -63,36 +63,43 @@ struct BandedGhost {
     }
 };
 
-/// Draws all ghosts, level by level, and brings the levels together; C values a pixel.
+}  // namespace
+
 template <int C>
-std::optional<std::vector<float>> draw_levels(const std::vector<DrawnGhost<C>>& ghosts,
-                                              const PixelFrame& frame, unsigned threads,
-                                              const std::stop_token& stop, FlareTimes& times) {
+LevelPictures<C>::LevelPictures(const PixelFrame& frame) : frame_(frame), levels_(picture_levels) {
+    for (int level = 0; level < picture_levels; ++level) {
+        const RasterSize size = level_size(frame, level);
+        levels_[static_cast<std::size_t>(level)].assign(
+            static_cast<std::size_t>(size.width_px) * static_cast<std::size_t>(size.height_px) * C,
+            0.0F);
+    }
+}
+
+template <int C>
+bool LevelPictures<C>::add(const std::vector<DrawnGhost<C>>& ghosts, unsigned threads,
+                           const std::stop_token& stop, FlareTimes& times) {
     const auto rastered = Clock::now();
     struct Task {
         int level, band;
     };
-    std::vector<std::vector<float>> pictures(picture_levels);
     std::vector<BandedGhost<C>> banded(ghosts.size());
     if (!parallel_for(ghosts.size(), threads, stop,
-                      [&](std::size_t g) { banded[g].sort(ghosts[g], frame); }))
-        return std::nullopt;
+                      [&](std::size_t g) { banded[g].sort(ghosts[g], frame_); }))
+        return false;
     std::vector<std::vector<const BandedGhost<C>*>> at_level(picture_levels);
     for (std::size_t g = 0; g < ghosts.size(); ++g)
         if (!ghosts[g].mesh.edges.empty() || !ghosts[g].mesh.points.empty())
             at_level[static_cast<std::size_t>(ghosts[g].level)].push_back(&banded[g]);
     std::vector<Task> tasks;
     for (int level = 0; level < picture_levels; ++level) {
-        const RasterSize size = level_size(frame, level);
-        pictures[static_cast<std::size_t>(level)].assign(
-            static_cast<std::size_t>(size.width_px) * static_cast<std::size_t>(size.height_px) * C,
-            0.0F);
         if (at_level[static_cast<std::size_t>(level)].empty()) continue;
-        for (int band = 0; band < band_count(size); ++band) tasks.push_back({level, band});
+        coarsest_ = std::max(coarsest_, level);
+        for (int band = 0; band < band_count(level_size(frame_, level)); ++band)
+            tasks.push_back({level, band});
     }
-    bool finished = parallel_for(tasks.size(), threads, stop, [&](std::size_t t) {
+    const bool finished = parallel_for(tasks.size(), threads, stop, [&](std::size_t t) {
         const auto [level, b] = tasks[t];
-        const RasterSize size = level_size(frame, level);
+        const RasterSize size = level_size(frame_, level);
         const int first_row = b * band_rows;
         const int rows = std::min(band_rows, size.height_px - first_row);
         ColorBand<C> band(size, first_row, rows);
@@ -101,33 +108,33 @@ std::optional<std::vector<float>> draw_levels(const std::vector<DrawnGhost<C>>& 
             for (const std::uint32_t k : ghost->points.of(b)) band.add(ghost->mesh->points[k]);
         }
         const std::size_t row_values = static_cast<std::size_t>(size.width_px) * C;
-        band.resolve({pictures[static_cast<std::size_t>(level)].data() +
+        band.resolve({levels_[static_cast<std::size_t>(level)].data() +
                           static_cast<std::size_t>(first_row) * row_values,
                       static_cast<std::size_t>(rows) * row_values});
     });
-    if (!finished) return std::nullopt;
     times.raster_ms += ms_since(rastered);
+    return finished;
+}
 
+template <int C>
+std::optional<std::vector<float>> LevelPictures<C>::take(unsigned threads,
+                                                         const std::stop_token& stop,
+                                                         FlareTimes& times) {
     const auto composed = Clock::now();
-    int coarsest = 0;
-    for (int level = 0; level < picture_levels; ++level)
-        if (!at_level[static_cast<std::size_t>(level)].empty()) coarsest = level;
-    for (int level = coarsest - 1; level >= 0; --level) {
-        const RasterSize size = level_size(frame, level), coarser = level_size(frame, level + 1);
-        std::vector<float>& picture = pictures[static_cast<std::size_t>(level)];
-        finished = parallel_for(
+    for (int level = coarsest_ - 1; level >= 0; --level) {
+        const RasterSize size = level_size(frame_, level), coarser = level_size(frame_, level + 1);
+        std::vector<float>& picture = levels_[static_cast<std::size_t>(level)];
+        const bool finished = parallel_for(
             static_cast<std::size_t>(band_count(size)), threads, stop, [&](std::size_t b) {
                 const int first = static_cast<int>(b) * band_rows;
-                add_coarser_rows<C>(pictures[static_cast<std::size_t>(level) + 1], coarser, size,
+                add_coarser_rows<C>(levels_[static_cast<std::size_t>(level) + 1], coarser, size,
                                     first, std::min(first + band_rows, size.height_px), picture);
             });
         if (!finished) return std::nullopt;
     }
     times.composite_ms += ms_since(composed);
-    return std::move(pictures[0]);
+    return std::move(levels_[0]);
 }
-
-}  // namespace
 
 FlareImage empty_image(const OpticalSystem& system, const PixelFrame& frame) {
     FlareImage image;
@@ -139,13 +146,12 @@ FlareImage empty_image(const OpticalSystem& system, const PixelFrame& frame) {
 }
 
 template <int C>
-bool draw_picture(const std::vector<DrawnGhost<C>>& ghosts, const PixelFrame& frame,
-                  unsigned threads, const std::stop_token& stop, FlareImage& image) {
-    const auto picture = draw_levels(ghosts, frame, threads, stop, image.times);
+bool LevelPictures<C>::finish(unsigned threads, const std::stop_token& stop, FlareImage& image) {
+    const auto picture = take(threads, stop, image.times);
     if (!picture) return false;
     const auto composed = Clock::now();
-    const auto width = static_cast<std::size_t>(frame.width_px);
-    const auto height = static_cast<std::size_t>(frame.height_px);
+    const auto width = static_cast<std::size_t>(frame_.width_px);
+    const auto height = static_cast<std::size_t>(frame_.height_px);
     image.irradiance.resize(width * height);
     image.rgb.resize(3 * width * height);
     std::vector<double> row_sums(height, 0.0);
@@ -161,18 +167,27 @@ bool draw_picture(const std::vector<DrawnGhost<C>>& ghosts, const PixelFrame& fr
         }
         row_sums[row] = sum;
     });
-    for (const double sum : row_sums) image.flux_on_sensor_mm2 += sum * frame.pixel_area_mm2();
+    for (const double sum : row_sums) image.flux_on_sensor_mm2 += sum * frame_.pixel_area_mm2();
     image.times.composite_ms += ms_since(composed);
     return finished;
+}
+template class LevelPictures<gray_channels>;
+template class LevelPictures<color_channels>;
+
+template <int C>
+bool draw_picture(const std::vector<DrawnGhost<C>>& ghosts, const PixelFrame& frame,
+                  unsigned threads, const std::stop_token& stop, FlareImage& image) {
+    LevelPictures<C> levels(frame);
+    return levels.add(ghosts, threads, stop, image.times) && levels.finish(threads, stop, image);
 }
 template bool draw_picture(const std::vector<DrawnGhost<gray_channels>>&, const PixelFrame&,
                            unsigned, const std::stop_token&, FlareImage&);
 template bool draw_picture(const std::vector<DrawnGhost<color_channels>>&, const PixelFrame&,
                            unsigned, const std::stop_token&, FlareImage&);
 
-bool draw_highlight(const std::vector<DrawnGhost<gray_channels>>& ghosts, const PixelFrame& frame,
-                    unsigned threads, const std::stop_token& stop, FlareImage& image) {
-    auto picture = draw_levels(ghosts, frame, threads, stop, image.times);
+bool finish_highlight(LevelPictures<gray_channels>& ghosts, unsigned threads,
+                      const std::stop_token& stop, FlareImage& image) {
+    auto picture = ghosts.take(threads, stop, image.times);
     if (!picture) return false;
     image.highlight = std::move(*picture);
     for (float& value : image.highlight) value = std::max(0.0F, value);

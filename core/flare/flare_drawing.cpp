@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/elapsed.h"
+#include "core/error.h"
 #include "core/flare/planned_ghost.h"
 #include "core/flare/probe_all.h"
 #include "core/parallel.h"
@@ -22,6 +23,14 @@ std::optional<FlareDrawing> plan_drawing(const FlareScene& scene, const FlareReq
     drawing.sin_azimuth = planner.placement().sin_azimuth();
     auto probed = probe_all(scene, planner, request, stop);
     if (!probed) return std::nullopt;
+    for (const ProbedGhost& ghost : *probed)
+        if (ghost.in_double && ghost.planned.fate == GhostFate::drawn)
+            throw Error({.problem = "a ghost's rays move by more than a tenth of a pixel in single "
+                                    "precision, which is all that shaders have",
+                         .file = {},
+                         .where = "ghost " + name(ghost.planned.path),
+                         .found = {},
+                         .expected = "ghosts that single precision holds still"});
     std::vector<GhostDrawing> prepared(probed->size());
     const bool finished = parallel_for(probed->size(), request.threads, stop, [&](std::size_t g) {
         if ((*probed)[g].planned.fate == GhostFate::drawn)

@@ -62,36 +62,63 @@ int propagation_raster(double fresnel_number) {
     return fresnel_number < wide_below ? wide_across / 8 : narrow_across / 2;
 }
 
-std::optional<PropagatedMask> propagated(const MaskRaster& raster, double fresnel_number,
-                                         unsigned threads, const std::stop_token& stop) {
-    const int across = fresnel_number < wide_below ? wide_across : narrow_across;
-    const double width = across * raster.pitch();  // of the padded grid, in semi-diameters
-    std::vector<std::complex<float>> field(idx(across) * idx(across));
-    const int first = (across - raster.across) / 2;
+std::optional<MaskSpectrum> mask_spectrum(const MaskRaster& raster, double fresnel_number,
+                                          unsigned threads, const std::stop_token& stop) {
+    const bool wide = fresnel_number < wide_below;
+    MaskSpectrum mask;
+    mask.across = wide ? wide_across : narrow_across;
+    mask.width = mask.across * raster.pitch();
+    mask.reach = std::min(0.5 * mask.width, wide ? 4.0 : 2.0);
+    mask.furthest = mask.width - 1.0 - (wide ? 4.0 : 1.0);
+    mask.field.resize(idx(mask.across) * idx(mask.across));
+    const int first = (mask.across - raster.across) / 2;
     for (int j = 0; j < raster.across; ++j)
         for (int i = 0; i < raster.across; ++i)
-            field[idx(first + j) * idx(across) + idx(first + i)] =
+            mask.field[idx(first + j) * idx(mask.across) + idx(first + i)] =
                 raster.open[idx(j * raster.across + i)];
-    if (!transform_2d(field, across, false, threads, stop)) return std::nullopt;
+    if (!transform_2d(mask.field, mask.across, false, threads, stop)) return std::nullopt;
+    return mask;
+}
+
+std::optional<PropagatedMask> propagated(const MaskRaster& raster, double fresnel_number,
+                                         unsigned threads, const std::stop_token& stop) {
+    const auto mask = mask_spectrum(raster, fresnel_number, threads, stop);
+    return mask ? propagated(*mask, fresnel_number, threads, stop) : std::nullopt;
+}
+
+std::optional<PropagatedMask> propagated(const MaskSpectrum& mask, double fresnel_number,
+                                         unsigned threads, const std::stop_token& stop) {
+    const int across = mask.across;
+    std::vector<std::complex<float>> field = mask.field;
     // Light of frequency f lands f/N away. What would run round the padded grid and back into the
     // part that is kept is left out (Matsushima and Shimobaba 2009), softly.
-    const double furthest = width - 1.0 - (fresnel_number < wide_below ? 4.0 : 1.0);
-    auto kept_share = [&](double f) {
-        const double t = std::clamp((furthest - f / fresnel_number) / (0.1 * furthest), 0.0, 1.0);
+    constexpr double soft = 0.1;
+    const double none_f = mask.furthest * fresnel_number, all_f = (1.0 - soft) * none_f;
+    auto kept_share = [&](double f2) {
+        if (f2 <= all_f * all_f) return 1.0;
+        const double t = std::clamp((none_f - std::sqrt(f2)) / (soft * none_f), 0.0, 1.0);
         return t * t * (3.0 - 2.0 * t);
     };
-    auto frequency = [&](int i) { return (i < across / 2 ? i : i - across) / width; };
+    // The phase of a frequency is the product of its two axes'.
+    std::vector<double> squares(idx(across));
+    std::vector<std::complex<double>> turns(idx(across));
+    for (int i = 0; i < across; ++i) {
+        const double f = (i < across / 2 ? i : i - across) / mask.width;
+        squares[idx(i)] = f * f;
+        turns[idx(i)] = std::polar(1.0, std::remainder(-pi * f * f / fresnel_number, 2.0 * pi));
+    }
     for (int j = 0; j < across; ++j)
         for (int i = 0; i < across; ++i) {
-            const double f2 = frequency(i) * frequency(i) + frequency(j) * frequency(j);
-            const double phase = std::remainder(-pi * f2 / fresnel_number, 2.0 * pi);
-            field[idx(j) * idx(across) + idx(i)] *= std::polar(
-                static_cast<float>(kept_share(std::sqrt(f2))), static_cast<float>(phase));
+            const double kept = kept_share(squares[idx(i)] + squares[idx(j)]);
+            const std::complex<double>&a = turns[idx(i)], &b = turns[idx(j)];
+            field[idx(j) * idx(across) + idx(i)] *= std::complex<float>(
+                static_cast<float>(kept * (a.real() * b.real() - a.imag() * b.imag())),
+                static_cast<float>(kept * (a.real() * b.imag() + a.imag() * b.real())));
         }
     if (!transform_2d(field, across, true, threads, stop)) return std::nullopt;
     PropagatedMask result;
-    result.reach = std::min(0.5 * width, fresnel_number < wide_below ? 4.0 : 2.0);
-    const int kept = static_cast<int>(std::lround(2.0 * result.reach / raster.pitch()));
+    result.reach = mask.reach;
+    const int kept = static_cast<int>(std::lround(across * 2.0 * result.reach / mask.width));
     result.across = kept;
     result.irradiance.resize(idx(kept) * idx(kept));
     const float scale = 1.0F / (static_cast<float>(across) * static_cast<float>(across));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <optional>
 #include <stop_token>
 #include <vector>
@@ -31,6 +32,19 @@ struct PropagatedMask {
 };
 inline constexpr double least_propagated = 0.3, most_propagated = 50.0;
 std::optional<PropagatedMask> propagated(const MaskRaster& raster, double fresnel_number,
+                                         unsigned threads, const std::stop_token& stop = {});
+
+/// A mask's spectrum on the padded grid that suits a Fresnel number, for several numbers about it.
+struct MaskSpectrum {
+    int across = 0;
+    double width = 0.0;     ///< of the padded grid, semi-diameters
+    double reach = 2.0;     ///< of what propagated() makes of it
+    double furthest = 1.0;  ///< that light may go without running round the grid into that
+    std::vector<std::complex<float>> field;
+};
+std::optional<MaskSpectrum> mask_spectrum(const MaskRaster& raster, double fresnel_number,
+                                          unsigned threads, const std::stop_token& stop = {});
+std::optional<PropagatedMask> propagated(const MaskSpectrum& mask, double fresnel_number,
                                          unsigned threads, const std::stop_token& stop = {});
 
 /// The pixels across a stop that propagated() wants for a Fresnel number.

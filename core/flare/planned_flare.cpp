@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "core/elapsed.h"
 #include "core/flare/draw_picture.h"
@@ -12,6 +14,28 @@
 
 namespace ghostlight {
 namespace {
+
+/// Cells whose meshes are held at once: 64 MB of edges, which a picture within 2 % seldom has.
+constexpr std::size_t most_cells_at_once = std::size_t{1} << 18;
+
+struct Batch {
+    std::size_t first = 0, count = 0;
+};
+/// Ghosts in order, as many at once as their cells allow.
+std::vector<Batch> batches_of(const GhostPlanner& planner, const std::vector<ProbedGhost>& ghosts) {
+    std::vector<Batch> batches;
+    std::size_t held = most_cells_at_once;
+    for (std::size_t g = 0; g < ghosts.size(); ++g) {
+        const std::size_t cells = planner.cells_to_draw(ghosts[g]);
+        if (held + cells > most_cells_at_once || batches.empty()) {
+            batches.push_back({g, 0});
+            held = 0;
+        }
+        held += cells;
+        ++batches.back().count;
+    }
+    return batches;
+}
 
 template <int C>
 std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& request,
@@ -30,32 +54,40 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
     std::vector<ProbedGhost>& probed = *found;
     image.times.bounds_ms = ms_since(began);
 
-    const auto traced = Clock::now();
-    std::vector<DrawnGhost<C>> drawn(probed.size());
-    std::vector<DrawnGhost<gray_channels>> highlighted(request.highlighted.empty() ? 0
-                                                                                   : probed.size());
-    const bool finished = parallel_for(probed.size(), request.threads, stop, [&](std::size_t g) {
-        if (probed[g].planned.fate != GhostFate::drawn) return;
-        planner.draw(probed[g], drawn[g].mesh);
-        drawn[g].level = probed[g].planned.level;
-        if (std::ranges::find(request.highlighted, ghosts[g]) != request.highlighted.end()) {
-            highlighted[g].mesh = last_channel(drawn[g].mesh);
-            highlighted[g].level = drawn[g].level;
+    LevelPictures<C> picture(frame);
+    std::optional<LevelPictures<gray_channels>> highlight;
+    if (!request.highlighted.empty()) highlight.emplace(frame);
+    for (const Batch& batch : batches_of(planner, probed)) {
+        const auto traced = Clock::now();
+        std::vector<DrawnGhost<C>> drawn(batch.count);
+        std::vector<DrawnGhost<gray_channels>> highlighted(highlight ? batch.count : 0);
+        const bool finished = parallel_for(batch.count, request.threads, stop, [&](std::size_t k) {
+            ProbedGhost& ghost = probed[batch.first + k];
+            if (ghost.planned.fate != GhostFate::drawn) return;
+            planner.draw(ghost, drawn[k].mesh);
+            drawn[k].level = ghost.planned.level;
+            if (std::ranges::find(request.highlighted, ghost.planned.path) !=
+                request.highlighted.end()) {
+                highlighted[k].mesh = last_channel(drawn[k].mesh);
+                highlighted[k].level = drawn[k].level;
+            }
+        });
+        if (!finished) return std::nullopt;
+        image.times.trace_ms += ms_since(traced);
+        if (!picture.add(drawn, request.threads, stop, image.times) ||
+            (highlight && !highlight->add(highlighted, request.threads, stop, image.times)))
+            return std::nullopt;
+        for (std::size_t k = 0; k < batch.count; ++k) {
+            const PlannedGhost& planned = probed[batch.first + k].planned;
+            image.flux_mm2 += planned.fate == GhostFate::off_sensor ? planned.whole_flux_mm2
+                                                                    : drawn[k].mesh.flux_mm2[C - 1];
+            image.cells += drawn[k].mesh.cells;
+            image.rays += planned.rays;
         }
-    });
-    if (!finished) return std::nullopt;
-    image.times.trace_ms = ms_since(traced);
-
-    if (!draw_picture<C>(drawn, frame, request.threads, stop, image)) return std::nullopt;
-    if (!highlighted.empty() && !draw_highlight(highlighted, frame, request.threads, stop, image))
-        return std::nullopt;
-    for (std::size_t g = 0; g < probed.size(); ++g) {
-        image.flux_mm2 += probed[g].planned.fate == GhostFate::off_sensor
-                              ? probed[g].planned.whole_flux_mm2
-                              : drawn[g].mesh.flux_mm2[C - 1];
-        image.cells += drawn[g].mesh.cells;
-        image.rays += probed[g].planned.rays;
     }
+    if (!picture.finish(request.threads, stop, image) ||
+        (highlight && !finish_highlight(*highlight, request.threads, stop, image)))
+        return std::nullopt;
     image.plan = plan_of(scene, request, probed);
     if (request.ringing && !add_ringing(scene, request, stop, image)) return std::nullopt;
     image.times.total_ms = ms_since(began);

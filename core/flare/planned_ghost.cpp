@@ -76,7 +76,7 @@ MeshNodes GhostPlanner::at_wavelength(const std::vector<MeshNodes>& placed,
 template <int C>
 void GhostPlanner::draw_grids(const std::vector<const MirrorGrid*>& geometry,
                               const MirrorGrid& weight_grid, const std::vector<float>& weights,
-                              int bands, bool split, const PlannedGhost& planned,
+                              int bands, bool split, const ProbedGhost& ghost,
                               ColorMesh<C>& mesh) const {
     std::vector<MeshNodes> placed;
     for (const MirrorGrid* grid : geometry) placed.push_back(placement_.place(*grid));
@@ -104,7 +104,7 @@ void GhostPlanner::draw_grids(const std::vector<const MirrorGrid*>& geometry,
     if (!singular.empty())
         draw_singular(main, singular, weight_grid,
                       ray_light<C>(scene_, weight_grid, weights, channel_shares<C>(scene_, 0, 1)),
-                      planned, mesh);
+                      ghost, mesh);
 }
 
 /// Traces singular cells of the half with u ≥ 0 on grids of their own, with films and polarisation
@@ -114,7 +114,7 @@ GhostPlanner::SingularRays GhostPlanner::trace_singular(const MirrorGrid& grid,
                                                         const std::vector<int>& cells,
                                                         const MirrorGrid& weight_grid,
                                                         const std::vector<float>& light,
-                                                        const PlannedGhost& planned) const {
+                                                        const ProbedGhost& ghost) const {
     constexpr int side = split_cells + 1;
     const double du = (grid.box.u1_mm - grid.box.u0_mm) / grid.cells;
     const double dv = (grid.box.v1_mm - grid.box.v0_mm) / grid.cells;
@@ -128,7 +128,7 @@ GhostPlanner::SingularRays GhostPlanner::trace_singular(const MirrorGrid& grid,
                 rays.u_mm.push_back(static_cast<float>(grid.box.u0_mm + du * u));
                 rays.v_mm.push_back(static_cast<float>(grid.box.v0_mm + dv * v));
             }
-    trace_bundle(trace_path<float>(scene_.system(), planned.path), beam_, Weights::polarised, rays);
+    trace(ghost, scene_.main, Weights::polarised, rays);
     std::vector<float> around;
     interpolate(weight_grid, light, C, grid.cells, around);
     for (std::size_t n = 0; n < cells.size(); ++n) {
@@ -149,9 +149,9 @@ GhostPlanner::SingularRays GhostPlanner::trace_singular(const MirrorGrid& grid,
 template <int C>
 void GhostPlanner::draw_singular(const MirrorGrid& grid, const std::vector<int>& cells,
                                  const MirrorGrid& weight_grid, const std::vector<float>& light,
-                                 const PlannedGhost& planned, ColorMesh<C>& mesh) const {
+                                 const ProbedGhost& ghost, ColorMesh<C>& mesh) const {
     constexpr int side = split_cells + 1;
-    const auto [rays, weights] = trace_singular<C>(grid, cells, weight_grid, light, planned);
+    const auto [rays, weights] = trace_singular<C>(grid, cells, weight_grid, light, ghost);
     const double cell_area_mm2 =
         grid.box.area_mm2() / (grid.cells * grid.cells * split_cells * split_cells);
     for (std::size_t n = 0; n < cells.size(); ++n)
@@ -242,6 +242,12 @@ void GhostPlanner::choose_level(const Fineness& chosen, double contrast_mm2, dou
     planned.error_mm2 = chosen.error_mm2 + level_error(planned.level);
 }
 
+std::size_t GhostPlanner::cells_to_draw(const ProbedGhost& ghost) const {
+    if (ghost.planned.fate != GhostFate::drawn) return 0;
+    const Fineness chosen = choose(ghost);
+    return idx(chosen.cells) * idx(chosen.cells) * idx(chosen.bands);
+}
+
 template <int C>
 void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
     PlannedGhost& planned = ghost.planned;
@@ -258,7 +264,7 @@ void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
             const bool is_probe = g == scene_.main && cells == probe_cells;
             if (!is_probe)
                 finer.push_back(
-                    traced(planned, g, cells, rough && g == scene_.main,
+                    traced(ghost, g, cells, rough && g == scene_.main,
                            polarised && g == scene_.main ? Weights::polarised : Weights::none));
         }
     for (const MirrorGrid& grid : finer) planned.rays += grid.half.size();
@@ -271,9 +277,9 @@ void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
         draw_grids(geometry, main,
                    ghost_weights(scene_, trace_path<float>(scene_.system(), planned.path), main,
                                  ghost.polarised),
-                   bands, split, planned, mesh);
+                   bands, split, ghost, mesh);
     else
-        draw_grids(geometry, probe, ghost.weights, bands, split, planned, mesh);
+        draw_grids(geometry, probe, ghost.weights, bands, split, ghost, mesh);
     const double pixel_mm2 = placement_.frame().pixel_area_mm2();
     choose_level(chosen, mesh.edge_contrast * pixel_mm2, mesh.slope_contrast * pixel_mm2, planned);
 }
@@ -304,7 +310,7 @@ GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
     MirrorGrid fine;
     std::vector<float> fine_weights;
     if (planned.cells != probe_cells && (own_weights || chosen.split)) {
-        fine = traced(planned, scene_.main, planned.cells, own_weights,
+        fine = traced(ghost, scene_.main, planned.cells, own_weights,
                       chosen.polarised ? Weights::polarised : Weights::none);
         planned.rays += fine.half.size();
     }
@@ -321,9 +327,9 @@ GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
         const MirrorGrid& grid = planned.cells == probe_cells ? probe : fine;
         drawing.singular = singular_cells(grid, placement_.place(grid));
         drawing.singular_across = split_cells;
-        drawing.singular_light = trace_singular<color_channels>(grid, drawing.singular, weight_grid,
-                                                                light(0, 1), planned)
-                                     .weights;
+        drawing.singular_light =
+            trace_singular<color_channels>(grid, drawing.singular, weight_grid, light(0, 1), ghost)
+                .weights;
     }
     const ColorAxis axis(scene_.samples);
     drawing.light_cells = weight_grid.cells;

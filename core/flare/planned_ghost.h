@@ -34,6 +34,9 @@ struct ProbedGhost {
     std::size_t passing = 0;     ///< of its nodes
     PolarisedShare polarised;    ///< over the box
     std::vector<float> weights;  ///< of the probe's half grid, FilmTables::stride() a ray
+    /// Single precision moves its rays by more than is_ill_conditioned() allows (path_stability.h):
+    /// it is traced in double.
+    bool in_double = false;
 };
 
 /// Cells across a probe.
@@ -53,6 +56,9 @@ class GhostPlanner {
     void weigh(ProbedGhost& ghost) const;
     /// Both.
     ProbedGhost probe(const GhostPath& path) const;
+
+    /// How many cells draw() will make of it, in all bands.
+    std::size_t cells_to_draw(const ProbedGhost& ghost) const;
 
     /// Chooses grid, level and bands within the ghost's allowance, and makes its mesh.
     template <int C>
@@ -89,14 +95,17 @@ class GhostPlanner {
     void choose_level(const Fineness& fineness, double contrast_mm2, double slopes_mm2,
                       PlannedGhost& planned) const;
     MeshNodes at_wavelength(const std::vector<MeshNodes>& placed, double wavelength_nm) const;
-    MirrorGrid traced(const PlannedGhost& planned, std::size_t node, int cells,
+    void trace(const ProbedGhost& ghost, std::size_t node, Weights weights,
+               Bundle<float>& rays) const;
+    void mind_rounding(ProbedGhost& ghost) const;
+    MirrorGrid traced(const ProbedGhost& ghost, std::size_t node, int cells,
                       bool keep_cosines = false, Weights weights = Weights::none) const;
     void look(const MirrorGrid& first, const MeshNodes& nodes, ProbedGhost& ghost) const;
-    double shift_of_colors_px(const PlannedGhost& planned) const;
+    double shift_of_colors_px(const ProbedGhost& ghost) const;
     template <int C>
     void draw_grids(const std::vector<const MirrorGrid*>& geometry, const MirrorGrid& weight_grid,
                     const std::vector<float>& weights, int bands, bool split,
-                    const PlannedGhost& planned, ColorMesh<C>& mesh) const;
+                    const ProbedGhost& ghost, ColorMesh<C>& mesh) const;
     struct SingularRays {
         Bundle<float> rays;  ///< cell by cell
         std::vector<float> weights;
@@ -104,11 +113,11 @@ class GhostPlanner {
     template <int C>
     SingularRays trace_singular(const MirrorGrid& grid, const std::vector<int>& cells,
                                 const MirrorGrid& weight_grid, const std::vector<float>& light,
-                                const PlannedGhost& planned) const;
+                                const ProbedGhost& ghost) const;
     template <int C>
     void draw_singular(const MirrorGrid& grid, const std::vector<int>& cells,
                        const MirrorGrid& weight_grid, const std::vector<float>& light,
-                       const PlannedGhost& planned, ColorMesh<C>& mesh) const;
+                       const ProbedGhost& ghost, ColorMesh<C>& mesh) const;
 };
 
 /// The last channel of a mesh alone.

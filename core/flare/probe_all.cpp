@@ -19,7 +19,7 @@ struct Granted {
     double tolerance, share;
 };
 constexpr std::array<Granted, 6> granted = {
-    {{0.003, 0.25}, {0.005, 0.35}, {0.01, 0.5}, {0.02, 0.9}, {0.04, 1.2}, {0.1, 1.6}}};
+    {{0.003, 0.25}, {0.005, 0.35}, {0.01, 0.5}, {0.02, 0.9}, {0.04, 1.45}, {0.1, 2.4}}};
 constexpr double most_share = 0.5;  ///< of a ghost's own light
 /// Of the tolerance, for what is left out.
 constexpr double left_out_share = 0.1;

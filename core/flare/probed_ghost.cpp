@@ -6,13 +6,16 @@
 #include "core/flare/ghost_measures.h"
 #include "core/flare/grid_light.h"
 #include "core/flare/planned_ghost.h"
+#include "core/ghosts/double_trace.h"
+#include "core/ghosts/path_stability.h"
 
 namespace ghostlight {
 namespace {
 
-constexpr int close_cells = 48;          ///< where hardly a ray of a probe passes
-constexpr std::size_t few_passing = 12;  ///< of a probe's nodes
-constexpr int shift_cells = 6;           ///< of the grids that lateral colour is measured on
+constexpr int close_cells = 48;           ///< where hardly a ray of a probe passes
+constexpr std::size_t few_passing = 12;   ///< of a probe's nodes
+constexpr std::size_t compared_rays = 8;  ///< of a probe, with double precision
+constexpr int shift_cells = 6;            ///< of the grids that lateral colour is measured on
 /// Of the bend times the contrast: only its part across an edge counts, and most of the contrast
 /// is at rims, where chords follow the bend. Calibrated on all bundled lenses, see
 /// docs/benchmarks.md.
@@ -36,14 +39,38 @@ GhostPlanner::GhostPlanner(const FlareScene& scene, const LightDirection& light,
       beam_(beam_frame({light.field_deg, 90.0})),
       entrance_(entrance_box(scene.system(), beam_)) {}
 
-MirrorGrid GhostPlanner::traced(const PlannedGhost& planned, std::size_t node, int cells,
+void GhostPlanner::trace(const ProbedGhost& ghost, std::size_t node, Weights weights,
+                         Bundle<float>& rays) const {
+    const OpticalSystem& system = scene_.geometry[node];
+    if (ghost.in_double)
+        trace_in_double(system, ghost.planned.path, beam_, weights, rays);
+    else
+        trace_bundle(trace_path<float>(system, ghost.planned.path), beam_, weights, rays);
+}
+
+MirrorGrid GhostPlanner::traced(const ProbedGhost& ghost, std::size_t node, int cells,
                                 bool keep_cosines, Weights weights) const {
     MirrorGrid grid;
-    grid.box = planned.box;
+    grid.box = ghost.planned.box;
     grid.cells = cells;
     grid.half.keep_cosines = keep_cosines;
-    trace_mirrored(trace_path<float>(scene_.geometry[node], planned.path), beam_, weights, grid);
+    lay_mirrored(grid);
+    trace(ghost, node, weights, grid.half);
+    grid.is_polarised = weights == Weights::polarised;
     return grid;
+}
+
+/// Compares some of the probe's rays with double precision; where they differ by what shows, the
+/// probe is traced anew, and all that follows in double.
+void GhostPlanner::mind_rounding(ProbedGhost& ghost) const {
+    const OpticalSystem& system = scene_.system();
+    PathStability seen;
+    seen.position_worst_mm =
+        float_displacement_mm(system, ghost.planned.path, beam_, ghost.grid.half, compared_rays);
+    ghost.in_double = is_ill_conditioned(seen, system.sensor_width_mm);
+    if (!ghost.in_double) return;
+    trace(ghost, scene_.main, Weights::none, ghost.grid.half);
+    ghost.planned.rays += ghost.grid.half.size();
 }
 
 ProbedGhost GhostPlanner::find(const GhostPath& path, const PlannedGhost* nearby) const {
@@ -73,13 +100,14 @@ void GhostPlanner::weigh(ProbedGhost& ghost) const {
     PlannedGhost& planned = ghost.planned;
     if (planned.fate != GhostFate::drawn) return;
     const auto trace = trace_path<float>(scene_.system(), planned.path);
+    mind_rounding(ghost);
     ghost.polarised = polarised_share(scene_, trace, beam_, planned.box);
     ghost.weights = ghost_weights(scene_, trace, ghost.grid, ghost.polarised);
     planned.rays += ghost.polarised.ratio.size();
 
     MirrorGrid closer;
     if (ghost.passing < few_passing) {
-        closer = traced(planned, scene_.main, close_cells);
+        closer = traced(ghost, scene_.main, close_cells);
         planned.rays += closer.half.size();
     }
     const MirrorGrid& first = closer.cells > 0 ? closer : ghost.grid;
@@ -107,11 +135,11 @@ ProbedGhost GhostPlanner::probe(const GhostPath& path) const {
 }
 
 /// How far apart the outer geometry wavelengths land, from few rays where they suffice.
-double GhostPlanner::shift_of_colors_px(const PlannedGhost& planned) const {
+double GhostPlanner::shift_of_colors_px(const ProbedGhost& ghost) const {
     double shift = 0.0;
     for (const int cells : {shift_cells, probe_cells}) {
-        shift = shift_px(placement_.place(traced(planned, 0, cells)),
-                         placement_.place(traced(planned, scene_.geometry.size() - 1, cells)));
+        shift = shift_px(placement_.place(traced(ghost, 0, cells)),
+                         placement_.place(traced(ghost, scene_.geometry.size() - 1, cells)));
         if (shift > 0.0) break;  // else no node of both passes
     }
     return shift;
@@ -134,7 +162,7 @@ void GhostPlanner::look(const MirrorGrid& first, const MeshNodes& nodes, ProbedG
     errors.grid_mm2 =
         contrast * (grid_factor * bend_px(nodes, frame) + rim_factor * rim_px(nodes, frame));
     if (scene_.geometry.size() > 1)
-        errors.merging_mm2 = merging_factor * contrast * shift_of_colors_px(ghost.planned);
+        errors.merging_mm2 = merging_factor * contrast * shift_of_colors_px(ghost);
     errors.weight_mm2 = ghost.planned.flux_mm2 *
                         roughness(ghost.grid, ray_light<gray_channels>(
                                                   scene_, ghost.grid, ghost.weights,

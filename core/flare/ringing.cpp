@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "core/elapsed.h"
 #include "core/flare/fresnel.h"
 #include "core/flare/ghost_mesh.h"
 #include "core/flare/grid_light.h"
+#include "core/flare/picture_levels.h"
+#include "core/flare/rim_profile.h"
 #include "core/ghosts/ghost_probe.h"
 #include "core/parallel.h"
 #include "core/units.h"
@@ -17,124 +18,24 @@
 namespace ghostlight {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr int grid_cells = 40;   ///< across a ghost's beam, its shadow's side included
 constexpr int weight_cells = 4;  ///< for the polarisation's share
 constexpr int band_rows = 16;
 /// Below this Fresnel number the rim's curvature shows in the fringes: the mask is propagated.
 constexpr double whole_mask_below = 20.0;
 constexpr int propagated_colors = 5;
-/// How far the profile is followed, in Fresnel's w: into the shadow, and into the light before the
-/// taper ends. Colours have run into one another by then; of one wavelength more of it shows.
-constexpr double into_shadow = 2.5, into_light = 6.0, into_light_gray = 14.0;
-/// Fringes finer than a pixel lie beyond w = 2 × pixels per w.
-constexpr double finest_fringe_px = 1.0;
-constexpr double tapered_share = 0.35;  ///< of the depth in the light
 /// Ghosts with less of the layer's light are left as they are.
 constexpr double least_flux_share = 1e-4;
+/// Those whose fringes change least are left out while what they would change adds up to less than
+/// this share of the picture's tolerance.
+constexpr double left_out_share = 0.25;
+/// ∫ |profile − 1 in the light, profile in the shadow| dw of a straight edge, to w = 6.
+constexpr double change_per_w = 1.04;
+/// Pixels of a level per w: fringes are then resolved up to where colours run into one another.
+constexpr double least_px_per_w = 8.0;
 /// A rim drawn at half the size and brought up bilinearly is a ramp this many of its pixels long.
 constexpr double coarse_rim_px = 2.2;
-constexpr int channels = 4;
-using Color = std::array<float, channels>;
-
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
-
-/// straight_edge() over w, read often.
-class EdgeTable {
-   public:
-    EdgeTable() {
-        for (int k = 0; k <= count; ++k) values_.push_back(straight_edge(first + k * step));
-    }
-    double at(double w) const {
-        const double place = (w - first) / step;
-        if (place <= 0.0) return 0.0;
-        if (place >= count) return 1.0;
-        const int k = static_cast<int>(place);
-        return std::lerp(values_[idx(k)], values_[idx(k) + 1], place - k);
-    }
-
-   private:
-    static constexpr double first = -4.0, step = 0.01;
-    static constexpr int count = 2400;  // up to w = 20
-    std::vector<double> values_;
-};
-const EdgeTable& edge_table() {
-    static const EdgeTable table;
-    return table;
-}
-
-/// What one edge changes, over the depth in semi-diameters: profile − 1 in the light, the profile
-/// in the shadow, in every channel as a share of the ghost's irradiance there.
-class EdgeChange {
-   public:
-    static constexpr int steps = 512;
-    double shadow = 0.0, light = 0.0;  ///< depths it reaches to
-    std::vector<Color> profile;        ///< the profile itself, tapered into 0 and 1
-
-    Color at(double depth) const {
-        const double place = (depth + shadow) / (shadow + light) * steps;
-        if (place <= 0.0) return Color{};
-        if (place >= steps) return Color{1.0F, 1.0F, 1.0F, 1.0F};
-        const int k = static_cast<int>(place);
-        const auto part = static_cast<float>(place - k);
-        Color value;
-        for (std::size_t c = 0; c < channels; ++c)
-            value[c] = profile[idx(k)][c] + part * (profile[idx(k) + 1][c] - profile[idx(k)][c]);
-        return value;
-    }
-};
-
-/// Colour shares of a ghost's light: of each spectral sample in each channel, summing to the
-/// ghost's colour over its irradiance.
-using ColorShares = std::vector<std::array<double, channels>>;
-
-EdgeChange edge_change(const FlareScene& scene, const ColorShares& shares, double fresnel_number,
-                       double px_per_w, bool round) {
-    const double main_nm = scene.system().wavelength_nm;
-    const double per_depth = std::sqrt(2.0 * fresnel_number);
-    EdgeChange change;
-    change.shadow = into_shadow / per_depth;
-    const double most = scene.is_gray() ? into_light_gray : into_light;
-    change.light = std::min(0.9, std::min(most, 2.0 * px_per_w / finest_fringe_px) / per_depth);
-    change.profile.resize(EdgeChange::steps + 1);
-    const double step = (change.shadow + change.light) / EdgeChange::steps;
-    std::array<double, channels> sum{}, room{};
-    auto taper = [&](double depth) {
-        const double part = depth >= 0.0 ? (change.light - depth) / (tapered_share * change.light)
-                                         : (change.shadow + depth) / (0.5 * change.shadow);
-        const double t = std::clamp(part, 0.0, 1.0);
-        return t * t * (3.0 - 2.0 * t);
-    };
-    // A bump in the light takes what keeps the sum at zero; a rim that is round has less of each
-    // depth than of the one before.
-    auto bump = [&](double depth) {
-        const double t = std::clamp(depth / change.light, 0.0, 1.0);
-        return t * t * (1.0 - t) * (1.0 - t);
-    };
-    for (int k = 0; k <= EdgeChange::steps; ++k) {
-        const double depth = k * step - change.shadow;
-        const double kept = taper(depth), length = round ? 1.0 - depth : 1.0;
-        const double lit = depth > 0.0 ? 1.0 : 0.0;
-        for (std::size_t c = 0; c < channels; ++c) {
-            double value = 0.0, whole = 0.0;
-            for (std::size_t w = 0; w < shares.size(); ++w) {
-                const double scale = std::sqrt(main_nm / scene.samples[w].wavelength_nm);
-                value += shares[w][c] * (edge_table().at(depth * per_depth * scale) - lit);
-                whole += shares[w][c];
-            }
-            const double changed = whole != 0.0 ? kept * value / whole : 0.0;
-            change.profile[idx(k)][c] = static_cast<float>(lit + changed);
-            sum[c] += changed * length;
-            room[c] += bump(depth) * length;
-        }
-    }
-    for (int k = 0; k <= EdgeChange::steps; ++k) {
-        const double depth = k * step - change.shadow;
-        for (std::size_t c = 0; c < channels; ++c)
-            change.profile[idx(k)][c] -= static_cast<float>(bump(depth) * sum[c] / room[c]);
-    }
-    return change;
-}
 
 /// A rung ghost ready to be drawn: triangles of rays with where they land, where they met the stop,
 /// their light per area, and what clips them.
@@ -150,54 +51,31 @@ struct Triangle {
 struct Rung {
     RungGhost report;
     StopMask stop;  ///< turned into the beam's plane
+    std::vector<EdgeLine> edges;
     EdgeChange edge;
-    std::array<double, channels> color{};  ///< over irradiance
-    std::vector<PropagatedMask> masks;     ///< by colour, where it is propagated
-    std::vector<std::array<double, channels>> mask_shares;
-    double rim_px = 1.0;  ///< how softly the picture has its rim
-    double reach = 1.0;   ///< of what is drawn, in semi-diameters from the middle
+    std::array<double, rim_channels> color{};  ///< over irradiance
+    std::vector<PropagatedMask> masks;         ///< by colour, where it is propagated
+    std::vector<std::array<double, rim_channels>> mask_shares;
+    int level = 0, most_level = 0;  ///< it is drawn at, and the one that its picture has
+    double rim_px = 1.0;            ///< how softly the picture has its rim
+    double reach = 1.0;             ///< of what is drawn, in semi-diameters from the middle
     std::optional<MaskRaster> raster;
     std::vector<Triangle> triangles;
     std::vector<std::vector<std::uint32_t>> by_band;
 };
 
-/// Depth of the edge that is nearest, in semi-diameters, and its direction inwards.
-struct Edge {
-    double depth, nx, ny;
+/// What is drawn into: a picture, or a level of one with its four rim_channels side by side.
+struct Canvas {
+    int width_px = 0, height_px = 0;
+    float* irradiance = nullptr;
+    std::size_t irradiance_step = 1;
+    float* rgb = nullptr;
+    std::size_t rgb_step = 3;
 };
-int edge_count(const StopMask& stop) { return stop.blades < 3 ? 1 : stop.blades; }
-Edge edge_at(const StopMask& stop, int edge, double u, double v) {
-    if (stop.blades < 3) {
-        const double r = std::hypot(u, v);
-        return {1.0 - r, r > 0.0 ? -u / r : 0.0, r > 0.0 ? -v / r : 0.0};
-    }
-    const double half = pi / stop.blades;
-    const double middle = stop.rotation_rad + half * (2 * edge + 1);
-    const double nx = std::cos(middle), ny = std::sin(middle);
-    if (stop.blade_curvature <= 0.0) return {std::cos(half) - u * nx - v * ny, -nx, -ny};
-    const double radius = 1.0 / stop.blade_curvature;
-    const double back = std::sqrt(radius * radius - std::pow(std::sin(half), 2)) - std::cos(half);
-    const double x = u + back * nx, y = v + back * ny, r = std::hypot(x, y);
-    return {radius - r, -x / r, -y / r};
-}
 
 /// Share of a pixel inside an edge.
 double coverage(double depth, double depth_per_px) {
     return std::clamp(0.5 + depth / std::max(depth_per_px, 1e-12), 0.0, 1.0);
-}
-
-ColorShares color_shares(const FlareScene& scene, const std::vector<double>& spectrum) {
-    ColorShares shares(scene.samples.size());
-    double whole = 0.0;
-    for (std::size_t w = 0; w < shares.size(); ++w) whole += scene.samples[w].weight * spectrum[w];
-    for (std::size_t w = 0; w < shares.size(); ++w) {
-        const double part = whole > 0.0 ? scene.samples[w].weight * spectrum[w] / whole : 0.0;
-        const bool gray = scene.is_gray();
-        shares[w] = {part * (gray ? 1.0 : scene.colors[w].r),
-                     part * (gray ? 1.0 : scene.colors[w].g),
-                     part * (gray ? 1.0 : scene.colors[w].b), part};
-    }
-    return shares;
 }
 
 class Ringing {
@@ -211,27 +89,34 @@ class Ringing {
           search_(request.search) {}
 
     /// Traces a ghost and works out its fringes; false where there is nothing to draw.
-    bool prepare(const GhostPath& path, const GhostFringes& fringes, unsigned threads,
-                 const std::stop_token& stop, Rung& rung) const {
+    bool prepare(const GhostPath& path, const GhostFringes& fringes, const PlannedGhost* planned,
+                 unsigned threads, const std::stop_token& stop, Rung& rung) const {
         const OpticalSystem& system = scene_.system();
         const auto trace = trace_path<float>(system, path);
         if (trace.stop_crossings == 0) return false;
-        const GhostProbe probe = probe_ghost(system, trace, beam_, entrance_, 12, search_);
-        if (probe.empty) return false;
+        PupilBox box;
+        if (planned != nullptr && planned->box.area_mm2() > 0.0) {
+            box = planned->box;
+        } else {
+            const GhostProbe probe = probe_ghost(system, trace, beam_, entrance_, 12, search_);
+            if (probe.empty) return false;
+            box = probe.grid.box;
+        }
         rung.report = {path, fringes.fresnel_number, fringes.first_fringe_px, false};
         const bool pictured = system.stop_mask.picture != nullptr;
         if (pictured && fringes.fresnel_number > most_propagated) return false;
         rung.report.propagated = pictured || fringes.fresnel_number < whole_mask_below;
         rung.stop = system.stop_mask;
         rung.stop.rotation_rad -= turn_rad_;
+        rung.edges = edge_lines(rung.stop);
         rung.reach = rung.report.propagated
                          ? 1.0 + std::min(1.0, 4.0 / std::sqrt(2.0 * fringes.fresnel_number))
                          : 1.0 + into_shadow / std::sqrt(2.0 * fringes.fresnel_number);
 
-        MirrorGrid grid{widened(probe.grid.box, rung.reach - 1.0), grid_cells, {}};
+        MirrorGrid grid{widened(box, rung.reach - 1.0), grid_cells, {}};
         grid.half.keep_cosines = true;
         trace_mirrored(trace, beam_, Weights::none, grid);
-        MirrorGrid polarised{probe.grid.box, weight_cells, {}};
+        MirrorGrid polarised{box, weight_cells, {}};
         trace_mirrored(trace, beam_, Weights::polarised, polarised);
         double exact = 0.0, average = 0.0;
         for (std::size_t k = 0; k < polarised.half.size(); ++k) {
@@ -246,7 +131,7 @@ class Ringing {
         const std::vector<double> spectrum = mean_spectrum(grid, weights);
         const ColorShares shares = color_shares(scene_, spectrum);
         for (const auto& share : shares)
-            for (std::size_t c = 0; c < channels; ++c) rung.color[c] += share[c];
+            for (std::size_t c = 0; c < rim_channels; ++c) rung.color[c] += share[c];
         const double px_per_w = fringes.first_fringe_px / first_maximum_w;
         if (!rung.report.propagated)
             rung.edge =
@@ -254,8 +139,19 @@ class Ringing {
         else if (!propagate(shares, threads, stop, rung))
             return false;
         lay_triangles(grid, weights, ratio, rung);
-        rung.by_band.resize(idx((frame_.height_px + band_rows - 1) / band_rows));
-        const double most = frame_.height_px - 0.5;
+        // A broad ghost whose fringes are broad too is drawn as small as its own picture.
+        while (rung.level < rung.most_level &&
+               px_per_w >= std::ldexp(least_px_per_w, rung.level + 1))
+            ++rung.level;
+        const RasterSize size = level_size(frame_, rung.level);
+        rung.rim_px *= size.scale;
+        for (Triangle& triangle : rung.triangles)
+            for (Node& node : triangle.nodes) {
+                node.column = node.column * size.scale + size.margin_px;
+                node.row = node.row * size.scale + size.margin_px;
+            }
+        rung.by_band.resize(idx((size.height_px + band_rows - 1) / band_rows));
+        const double most = size.height_px - 0.5;
         for (std::uint32_t t = 0; t < rung.triangles.size(); ++t) {
             const auto& n = rung.triangles[t].nodes;
             const auto [low, high] = std::minmax({n[0].row, n[1].row, n[2].row});
@@ -267,10 +163,10 @@ class Ringing {
     }
 
     /// Draws the rows of a band: what the fringes change.
-    void draw(const Rung& rung, int band, FlareImage& image) const {
-        const int first = band * band_rows, last = std::min(first + band_rows, frame_.height_px);
+    void draw(const Rung& rung, int band, const Canvas& canvas) const {
+        const int first = band * band_rows, last = std::min(first + band_rows, canvas.height_px);
         for (const std::uint32_t t : rung.by_band[idx(band)])
-            draw(rung, rung.triangles[t], first, last, image);
+            draw(rung, rung.triangles[t], first, last, canvas);
     }
 
    private:
@@ -306,19 +202,21 @@ class Ringing {
         const double number = rung.report.fresnel_number;
         const int across = propagation_raster(number);
         rung.raster = mask_raster(rung.stop, scene_.dirt, across);
+        const auto spectrum = mask_spectrum(*rung.raster, number, threads, stop);
+        if (!spectrum) return false;
         const std::size_t samples = shares.size();
         const std::size_t count = std::min<std::size_t>(samples, propagated_colors);
         for (std::size_t p = 0; p < count; ++p) {
-            std::array<double, channels> share{};
+            std::array<double, rim_channels> share{};
             double middle_nm = 0.0, weight = 0.0;
             for (std::size_t w = p * samples / count; w < (p + 1) * samples / count; ++w) {
-                for (std::size_t c = 0; c < channels; ++c) share[c] += shares[w][c];
-                middle_nm += shares[w][channels - 1] * scene_.samples[w].wavelength_nm;
-                weight += shares[w][channels - 1];
+                for (std::size_t c = 0; c < rim_channels; ++c) share[c] += shares[w][c];
+                middle_nm += shares[w][rim_channels - 1] * scene_.samples[w].wavelength_nm;
+                weight += shares[w][rim_channels - 1];
             }
             if (!(weight > 0.0)) continue;
             auto mask =
-                propagated(*rung.raster,
+                propagated(*spectrum,
                            std::max(least_propagated,
                                     number * scene_.system().wavelength_nm * weight / middle_nm),
                            threads, stop);
@@ -410,10 +308,10 @@ class Ringing {
         if (clear < 0.0 || nearest > rung.reach) return false;
         if (rung.report.propagated) return true;
         double least = 1e300, most = -1e300;
-        for (int edge = 0; edge < edge_count(rung.stop); ++edge) {
+        for (const EdgeLine& edge : rung.edges) {
             double edge_most = -1e300;
             for (const Node& n : t.nodes) {
-                const double depth = edge_at(rung.stop, edge, n.u, n.v).depth;
+                const double depth = edge_at(edge, n.u, n.v).depth;
                 least = std::min(least, depth);
                 edge_most = std::max(edge_most, depth);
             }
@@ -424,7 +322,7 @@ class Ringing {
     }
 
     void draw(const Rung& rung, const Triangle& t, int first_row, int last_row,
-              FlareImage& image) const {
+              const Canvas& canvas) const {
         const Node &p = t.nodes[0], &q = t.nodes[1], &r = t.nodes[2];
         const double ax = q.column - p.column, ay = q.row - p.row;
         const double bx = r.column - p.column, by = r.row - p.row;
@@ -457,7 +355,7 @@ class Ringing {
             }
             if (!(from < to) || to < left - 1.0 || from > right + 1.0) continue;
             const int first = std::max(0, static_cast<int>(std::ceil(from - 0.5)));
-            const int end = std::min(frame_.width_px, static_cast<int>(std::ceil(to - 0.5)));
+            const int end = std::min(canvas.width_px, static_cast<int>(std::ceil(to - 0.5)));
             for (int column = first; column < end; ++column) {
                 const double x = column + 0.5 - p.column;
                 const double b = (x * by - y * bx) / twice, c = (y * ax - x * ay) / twice;
@@ -467,59 +365,166 @@ class Ringing {
                 if (mix(p.clear, q.clear, r.clear) < 0.0) continue;
                 const double u = mix(p.u, q.u, r.u), v = mix(p.v, q.v, r.v);
                 const double light = mix(p.light, q.light, r.light);
-                const Color change = rung.report.propagated
-                                         ? mask_change(rung, u, v, ux, uy, vx, vy)
-                                         : rim_change(rung, u, v, ux, uy, vx, vy);
-                const std::size_t pixel = idx(row) * idx(frame_.width_px) + idx(column);
-                image.irradiance[pixel] += static_cast<float>(light) * change[channels - 1];
+                const RimColor change = rung.report.propagated
+                                            ? mask_change(rung, u, v, ux, uy, vx, vy)
+                                            : rim_change(rung, u, v, ux, uy, vx, vy);
+                const std::size_t pixel = idx(row) * idx(canvas.width_px) + idx(column);
+                canvas.irradiance[canvas.irradiance_step * pixel] +=
+                    static_cast<float>(light) * change[rim_channels - 1];
                 for (std::size_t k = 0; k < 3; ++k)
-                    image.rgb[3 * pixel + k] += static_cast<float>(light) * change[k];
+                    canvas.rgb[canvas.rgb_step * pixel + k] +=
+                        static_cast<float>(light) * change[k];
             }
         }
     }
 
-    Color rim_change(const Rung& rung, double u, double v, double ux, double uy, double vx,
-                     double vy) const {
-        Color profile{1.0F, 1.0F, 1.0F, 1.0F};
+    RimColor rim_change(const Rung& rung, double u, double v, double ux, double uy, double vx,
+                        double vy) const {
+        RimColor profile{1.0F, 1.0F, 1.0F, 1.0F};
         double covered = 1.0;
-        for (int e = 0; e < edge_count(rung.stop); ++e) {
-            const Edge edge = edge_at(rung.stop, e, u, v);
+        for (const EdgeLine& line : rung.edges) {
+            const EdgeDepth edge = edge_at(line, u, v);
             if (edge.depth > rung.edge.light + 0.5) continue;
-            const Color own = rung.edge.at(edge.depth);
-            for (std::size_t c = 0; c < channels; ++c) profile[c] *= own[c];
+            const RimColor own = rung.edge.at(edge.depth);
+            for (std::size_t c = 0; c < rim_channels; ++c) profile[c] *= own[c];
             const double slope =
                 std::abs(edge.nx * ux + edge.ny * vx) + std::abs(edge.nx * uy + edge.ny * vy);
             covered *= coverage(edge.depth, slope * rung.rim_px);
         }
-        Color change;
-        for (std::size_t c = 0; c < channels; ++c)
+        RimColor change;
+        for (std::size_t c = 0; c < rim_channels; ++c)
             change[c] =
                 static_cast<float>(rung.color[c]) * (profile[c] - static_cast<float>(covered));
         return change;
     }
 
-    Color mask_change(const Rung& rung, double u, double v, double ux, double uy, double vx,
-                      double vy) const {
-        Color change{};
+    RimColor mask_change(const Rung& rung, double u, double v, double ux, double uy, double vx,
+                         double vy) const {
+        RimColor change{};
         // What the picture holds: the mask without its dirt, its rim as pixels cover it.
         double lit = 1.0;
         if (rung.stop.picture &&
             !stop_passes(rung.stop, u * rung.stop.semi_diameter_mm, v * rung.stop.semi_diameter_mm))
             lit = 0.0;
-        for (int e = 0; e < edge_count(rung.stop); ++e) {
-            const Edge edge = edge_at(rung.stop, e, u, v);
+        for (const EdgeLine& line : rung.edges) {
+            const EdgeDepth edge = edge_at(line, u, v);
             const double slope =
                 std::abs(edge.nx * ux + edge.ny * vx) + std::abs(edge.nx * uy + edge.ny * vy);
             lit *= coverage(edge.depth, slope * rung.rim_px);
         }
         for (std::size_t p = 0; p < rung.masks.size(); ++p) {
             const double irradiance = rung.masks[p].at(u, v);
-            for (std::size_t c = 0; c < channels; ++c)
+            for (std::size_t c = 0; c < rim_channels; ++c)
                 change[c] += static_cast<float>(rung.mask_shares[p][c] * (irradiance - lit));
         }
         return change;
     }
 };
+
+const PlannedGhost* planned_of(const FlarePlan& plan, const GhostPath& path) {
+    const auto found = std::ranges::find(plan.ghosts, path, &PlannedGhost::path);
+    return found == plan.ghosts.end() ? nullptr : &*found;
+}
+
+/// Of a whole planned picture, leaves out the ghosts whose fringes change least.
+void leave_out_weakest(const OpticalSystem& system, const FlareRequest& request,
+                       const PixelFrame& frame, const FlarePlan& plan,
+                       std::vector<GhostPath>& chosen) {
+    if (!request.only.empty() || !(plan.flux_mm2 > 0.0)) return;
+    struct Change {
+        GhostPath path;
+        double mm2;
+    };
+    std::vector<Change> changes;
+    for (const GhostPath& path : chosen) {
+        const PlannedGhost* planned = planned_of(plan, path);
+        const double number =
+            ghost_fringes(system, paraxial_ghost(system, path), frame.pitch_mm).fresnel_number;
+        // A rim of two semi-diameters per area, as deep as w = 1 is; at most all of it moves.
+        const double share = std::min(1.0, 2.0 * change_per_w / std::sqrt(2.0 * number));
+        changes.push_back({path, planned != nullptr ? share * planned->flux_mm2 : 0.0});
+    }
+    std::ranges::stable_sort(changes, std::ranges::less{}, &Change::mm2);
+    double budget_mm2 = left_out_share * request.tolerance * plan.flux_mm2;
+    auto kept = changes.begin();
+    for (; kept != changes.end() && kept->mm2 <= budget_mm2; ++kept) budget_mm2 -= kept->mm2;
+    std::erase_if(chosen, [&](const GhostPath& path) {
+        return std::find_if(changes.begin(), kept,
+                            [&](const Change& change) { return change.path == path; }) != kept;
+    });
+}
+
+/// Draws all fringes, level by level, brings the levels together and sums up the picture's flux.
+bool draw_rung(const Ringing& ringing, const std::vector<Rung>& rung,
+               const std::vector<char>& drawn, const PixelFrame& frame, unsigned threads,
+               const std::stop_token& stop, FlareImage& image) {
+    std::array<std::vector<float>, picture_levels> levels;
+    int coarsest = 0;
+    for (std::size_t g = 0; g < rung.size(); ++g)
+        if (drawn[g]) coarsest = std::max(coarsest, rung[g].level);
+    struct Task {
+        int level, band;
+    };
+    std::vector<Task> tasks;
+    auto bands_of = [&](int level) {
+        return (level_size(frame, level).height_px + band_rows - 1) / band_rows;
+    };
+    for (int level = 0; level <= coarsest; ++level) {
+        const RasterSize size = level_size(frame, level);
+        if (level > 0)
+            levels[idx(level)].assign(idx(size.width_px) * idx(size.height_px) * rim_channels,
+                                      0.0F);
+        for (int band = 0; band < bands_of(level); ++band) tasks.push_back({level, band});
+    }
+    if (!parallel_for(tasks.size(), threads, stop, [&](std::size_t t) {
+            const auto [level, band] = tasks[t];
+            const RasterSize size = level_size(frame, level);
+            float* own = levels[idx(level)].data();
+            const Canvas canvas =
+                level == 0
+                    ? Canvas{size.width_px,           size.height_px,
+                             image.irradiance.data(), 1,
+                             image.rgb.data(),        3}
+                    : Canvas{size.width_px, size.height_px, own + rim_channels - 1, rim_channels,
+                             own,           rim_channels};
+            for (std::size_t g = 0; g < rung.size(); ++g)
+                if (drawn[g] && rung[g].level == level) ringing.draw(rung[g], band, canvas);
+        }))
+        return false;
+    const int bands = bands_of(0);
+    if (coarsest > 0)
+        levels[0].assign(idx(frame.width_px) * idx(frame.height_px) * rim_channels, 0.0F);
+    for (int level = coarsest - 1; level >= 0; --level)
+        if (!parallel_for(idx(bands_of(level)), threads, stop, [&](std::size_t b) {
+                const RasterSize size = level_size(frame, level);
+                const int first = static_cast<int>(b) * band_rows;
+                add_coarser_rows<rim_channels>(
+                    levels[idx(level) + 1], level_size(frame, level + 1), size, first,
+                    std::min(first + band_rows, size.height_px), levels[idx(level)]);
+            }))
+            return false;
+    std::vector<double> sums(idx(bands), 0.0);
+    if (!parallel_for(idx(bands), threads, stop, [&](std::size_t b) {
+            const std::size_t first = b * band_rows * idx(frame.width_px);
+            const std::size_t last = std::min(first + band_rows * idx(frame.width_px),
+                                              idx(frame.width_px) * idx(frame.height_px));
+            for (std::size_t k = first; k < last; ++k) {
+                if (coarsest > 0) {
+                    image.irradiance[k] += levels[0][rim_channels * k + rim_channels - 1];
+                    for (std::size_t c = 0; c < 3; ++c)
+                        image.rgb[3 * k + c] += levels[0][rim_channels * k + c];
+                }
+                // Where the picture's own rim is softer than the fringes' a trace would be below
+                // zero.
+                image.irradiance[k] = std::max(0.0F, image.irradiance[k]);
+                sums[b] += static_cast<double>(image.irradiance[k]);
+            }
+        }))
+        return false;
+    image.flux_on_sensor_mm2 = 0.0;
+    for (const double sum : sums) image.flux_on_sensor_mm2 += sum * frame.pixel_area_mm2();
+    return true;
+}
 
 }  // namespace
 
@@ -567,44 +572,28 @@ bool add_ringing(const FlareScene& scene, const FlareRequest& request, const std
         const bool at_sensor = std::ranges::any_of(
             paths[g].reflections, [&](std::size_t s) { return s >= system.surfaces.size(); });
         if (at_sensor && !upright) continue;
-        const auto planned = std::ranges::find(image.plan.ghosts, paths[g], &PlannedGhost::path);
-        if (planned != image.plan.ghosts.end() &&
-            (planned->fate != GhostFate::drawn ||
-             planned->flux_mm2 < least_flux_share * image.plan.flux_mm2))
+        const PlannedGhost* planned = planned_of(image.plan, paths[g]);
+        if (planned != nullptr && (planned->fate != GhostFate::drawn ||
+                                   planned->flux_mm2 < least_flux_share * image.plan.flux_mm2))
             continue;
         chosen.push_back(paths[g]);
     }
+    leave_out_weakest(system, request, frame, image.plan, chosen);
     const Ringing ringing(scene, request, frame);
     std::vector<Rung> rung(chosen.size());
-    for (std::size_t g = 0; g < chosen.size(); ++g) {
-        const auto planned = std::ranges::find(image.plan.ghosts, chosen[g], &PlannedGhost::path);
-        if (planned != image.plan.ghosts.end() && planned->level > 0)
-            rung[g].rim_px = coarse_rim_px * std::exp2(planned->level);
-    }
     std::vector<char> drawn(chosen.size(), 0);
     const bool finished = parallel_for(chosen.size(), request.threads, stop, [&](std::size_t g) {
+        const PlannedGhost* planned = planned_of(image.plan, chosen[g]);
+        if (planned != nullptr && planned->level > 0) {
+            rung[g].most_level = planned->level;
+            rung[g].rim_px = coarse_rim_px * std::exp2(planned->level);
+        }
         const GhostFringes fringes =
             ghost_fringes(system, paraxial_ghost(system, chosen[g]), frame.pitch_mm);
-        drawn[g] = ringing.prepare(chosen[g], fringes, 1, stop, rung[g]) ? 1 : 0;
+        drawn[g] = ringing.prepare(chosen[g], fringes, planned, 1, stop, rung[g]) ? 1 : 0;
     });
     if (!finished || stop.stop_requested()) return false;
-    const int bands = (frame.height_px + band_rows - 1) / band_rows;
-    std::vector<double> sums(idx(bands), 0.0);
-    const bool rastered = parallel_for(idx(bands), request.threads, stop, [&](std::size_t b) {
-        const int first = static_cast<int>(b) * band_rows;
-        const int last = std::min(first + band_rows, frame.height_px);
-        for (std::size_t g = 0; g < rung.size(); ++g)
-            if (drawn[g]) ringing.draw(rung[g], static_cast<int>(b), image);
-        const std::size_t from = idx(first) * idx(frame.width_px);
-        for (std::size_t k = from; k < idx(last) * idx(frame.width_px); ++k) {
-            // Where the picture's own rim is softer than the fringes' a trace would be below zero.
-            image.irradiance[k] = std::max(0.0F, image.irradiance[k]);
-            sums[b] += static_cast<double>(image.irradiance[k]);
-        }
-    });
-    if (!rastered) return false;
-    image.flux_on_sensor_mm2 = 0.0;
-    for (const double sum : sums) image.flux_on_sensor_mm2 += sum * frame.pixel_area_mm2();
+    if (!draw_rung(ringing, rung, drawn, frame, request.threads, stop, image)) return false;
     for (std::size_t g = 0; g < rung.size(); ++g)
         if (drawn[g]) image.ringing.push_back(rung[g].report);
     image.times.ringing_ms = ms_since(began);

@@ -4,8 +4,7 @@
 
 namespace ghostlight {
 
-void trace_mirrored(const TracePath<float>& path, const BeamFrame& frame, Weights weights,
-                    MirrorGrid& grid) {
+void lay_mirrored(MirrorGrid& grid) {
     const int across = grid.half_side(), rows = grid.side();
     Bundle<float>& rays = grid.half;
     rays.u_mm.resize(static_cast<std::size_t>(across * rows));
@@ -19,7 +18,12 @@ void trace_mirrored(const TracePath<float>& path, const BeamFrame& frame, Weight
             rays.v_mm[k] = v;
         }
     }
-    trace_bundle(path, frame, weights, rays);
+}
+
+void trace_mirrored(const TracePath<float>& path, const BeamFrame& frame, Weights weights,
+                    MirrorGrid& grid) {
+    lay_mirrored(grid);
+    trace_bundle(path, frame, weights, grid.half);
     grid.is_polarised = weights == Weights::polarised;
 }
 

@@ -27,7 +27,9 @@ struct MirrorGrid {
     bool is_mirrored(int i) const { return i < cells / 2; }
 };
 
-/// Lays the half grid and traces it.
+/// Lays the half grid.
+void lay_mirrored(MirrorGrid& grid);
+/// And traces it.
 void trace_mirrored(const TracePath<float>& path, const BeamFrame& frame, Weights weights,
                     MirrorGrid& grid);
 

@@ -10,6 +10,8 @@ namespace {
 
 /// Nodes of a batch of several ghosts: 64 MiB of them.
 constexpr std::size_t most_nodes = std::size_t{1} << 20;
+/// Two triangles, each as itself and as a spot: ghost.vert.glsl.
+constexpr int cell_vertices = 12;
 
 [[noreturn]] void refuse(const char* what, std::size_t found, std::size_t most) {
     throw Error(
@@ -98,7 +100,7 @@ class Packer {
 
     /// All sheets from `first` on, of so many cells across.
     static void draw(int level, int cells, std::size_t first, bool highlighted, FlareBatch& batch) {
-        const DrawCommand command{static_cast<std::uint32_t>(6 * cells * cells),
+        const DrawCommand command{static_cast<std::uint32_t>(cell_vertices * cells * cells),
                                   static_cast<std::uint32_t>(batch.sheets.size() - first), 0,
                                   static_cast<std::uint32_t>(first)};
         batch.draws[static_cast<std::size_t>(level)].push_back(command);

@@ -1,6 +1,8 @@
 // Triangles of all sheets of a batch. A triangle that covers pixels is drawn as it is; one below a
 // pixel or thinner than one, or beside failing rays, as a spot with the same flux, centre and
-// spread, since whether it meets a pixel's centre would be chance.
+// spread, since whether it meets a pixel's centre would be chance. In between it is drawn as both,
+// each with a share of its light: spots spread into what is beside them, and where they began at
+// once their last row would be dark and the triangles about it bright.
 struct Sheet {
     ivec4 grid, rays;  // see place.comp.glsl
     vec4 shares;
@@ -25,8 +27,11 @@ flat out int crossings;
 // A mesh of bands of spectrum and of cells hides no variance below this: a spot smaller than a
 // pixel would flicker with where it lies between pixels' centres. px^2.
 const float least_variance = 0.25;
-const float least_area = 1.0;     // px^2, of a triangle
-const float least_breadth = 1.0;  // px
+// From where on a triangle is drawn as one too, and as nothing else; of a cell that is drawn on a
+// grid of its own the whole cell counts, since its triangles are parts of one smooth sheet.
+const vec2 areas = vec2(0.125, 1.0);    // px^2
+const vec2 breadths = vec2(0.25, 1.0);  // px
+const float own_grid = 4.0;            // cells across such a grid
 const float reach = 3.3;          // of a spot, in standard deviations: 0.15 % of it is beyond
 const float beyond = 1.0015;
 const float most_rescaled = 4.0;  // by its flux; else the triangle's light is even
@@ -55,7 +60,8 @@ void main() {
     Sheet sheet = sheets[sheet_index];
     crossings = sheet.more.y;
     int cells = sheet.grid.x, side = cells + 1;
-    int cell = gl_VertexID / 6, half_of = (gl_VertexID / 3) % 2, own = gl_VertexID % 3;
+    int cell = gl_VertexID / 12, half_of = (gl_VertexID / 6) % 2, own = gl_VertexID % 3;
+    bool as_spot = (gl_VertexID / 3) % 2 == 1;
     int bit = sheet.more.w + cell;
     if (sheet.more.w >= 0 && (skipped[bit / 32] >> (bit % 32) & 1u) == 1u) {
         drop();
@@ -100,9 +106,19 @@ void main() {
     vec2 ab = place[1] - place[0], ac = place[2] - place[0], bc = place[2] - place[1];
     float area = 0.5 * abs(ab.x * ac.y - ab.y * ac.x);
     float longest = sqrt(max(dot(ab, ab), max(dot(ac, ac), dot(bc, bc))));
+    float enlarged = sheet.more.z == 0 ? own_grid : 1.0;
+    float share = count < 3.0 ? 0.0
+                              : smoothstep(areas.x, areas.y, area * enlarged * enlarged) *
+                                    smoothstep(breadths.x, breadths.y,
+                                               2.0 * area * enlarged / max(longest, 1e-20));
+    if (as_spot) share = 1.0 - share;
+    if (share <= 0.0) {
+        drop();
+        return;
+    }
     // Light times area on the level's pixels.
-    float entrance = 0.5 * sheet.shares.w * target.x * target.x;
-    if (count == 3.0 && area >= least_area && 2.0 * area >= least_breadth * longest) {
+    float entrance = 0.5 * sheet.shares.w * target.x * target.x * share;
+    if (!as_spot) {
         vec4 even = entrance / area * (n[0].light + n[1].light + n[2].light) / 3.0;
         vec4 middle = (n[0].light * n[0].stop2.z + n[1].light * n[1].stop2.z +
                        n[2].light * n[2].stop2.z) / 3.0;

@@ -55,7 +55,7 @@ Prescription widescreen(Prescription lens) {
 }
 
 void bench_edit() {
-    Prescription lens = square(lens_named("tessar_brendel_100_f2.8"));
+    Prescription lens = square(lens_named("tessar_brendel_100_f2.8.json"));
     lens.stop.f_number = 8.0;
     StarburstRequest request;
     request.light = {4.0, 90.0};
@@ -84,7 +84,7 @@ void bench_edit() {
 }
 
 void bench_move() {
-    Prescription lens = widescreen(lens_named("tessar_brendel_100_f2.8"));
+    Prescription lens = widescreen(lens_named("tessar_brendel_100_f2.8.json"));
     lens.stop.f_number = 8.0;
     lens.stop.blades = 7;
     StarburstRequest request;
@@ -96,8 +96,8 @@ void bench_move() {
 }
 
 void bench_ringing() {
-    for (const char* name :
-         {"tessar_brendel_100_f2.8", "double_gauss_tronnier_100_f2", "nikon_zoom_80_200_f2.8"})
+    for (const char* name : {"tessar_brendel_100_f2.8.json", "double_gauss_tronnier_100_f2.json",
+                             "nikon_zoom_80_200_f2.8.json"})
         for (const double f_number : {0.0, 11.0}) {
             Prescription lens = widescreen(lens_named(name));
             if (f_number > 0.0) lens.stop.f_number = f_number;
