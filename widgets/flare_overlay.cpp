@@ -187,7 +187,7 @@ void paint_false_color_scale(QPainter& painter, QSizeF view_px,
     }
     const QRectF bar(view_px.width() - 66.0, 44.0, 12.0, height);
     painter.setPen(Qt::NoPen);
-    painter.setBrush(QColor(0, 0, 0, 170));
+    painter.setBrush(QColor(0, 0, 0, 225));
     painter.drawRoundedRect(bar.adjusted(-10.0, -28.0, 50.0, 12.0), 4.0, 4.0);
     for (int k = 0; k < bands; ++k) {
         const auto rgb = false_color((static_cast<float>(k) + 0.5F) / bands);
@@ -202,7 +202,6 @@ void paint_false_color_scale(QPainter& painter, QSizeF view_px,
     const int high = static_cast<int>(std::lround(decades.high));
     for (int decade = low; decade <= high; ++decade) {
         const double y = bar.bottom() - height * (decade - low) / std::max(1, high - low);
-        painter.drawLine(QPointF(bar.right(), y), QPointF(bar.right() + 3.0, y));
         painter.drawText(QRectF(bar.right() + 5.0, y - 8.0, 44.0, 16.0),
                          Qt::AlignLeft | Qt::AlignVCenter, significant(std::pow(10.0, decade), 1));
     }

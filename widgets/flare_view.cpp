@@ -29,7 +29,7 @@ constexpr double drag_start_px = 3.0;        // less is a click
 constexpr double grip_reach_px = 14.0;       // of the light's marker
 constexpr double divider_reach_px = 5.0;
 constexpr int rest_ms = 120;           // of the cursor, before ghosts are asked for
-constexpr float shown_decades = 6.0F;  // in false colours
+constexpr float shown_decades = 4.0F;  // in false colours
 
 std::array<float, 3> floats(const QColor& color) {
     return {color.redF(), color.greenF(), color.blueF()};

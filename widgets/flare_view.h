@@ -38,7 +38,7 @@ class FlareView : public GlView {
     /// Tone curve, false colours, clipping; the exposure stays.
     void set_tone(ToneCurve tone);
     void set_mark_clipping(bool marks);
-    /// Over six decades, the brightest place of the picture at rest on top.
+    /// Over four decades, the brightest place of the picture at rest on top.
     void set_false_color(bool on);
     const PictureLook& look() const { return look_; }
     /// The pinned lens's picture: shown left of the divider, or in turn with the own one. Null ends

@@ -99,7 +99,9 @@ void Understanding::arrange(QDockWidget* beside) {
     sweep_dock_->hide();
 }
 
-bool Understanding::is_settled() const { return check_->is_settled() && !comparison_->is_busy(); }
+bool Understanding::is_settled() const {
+    return check_->is_settled() && !comparison_->is_busy() && !sweep_->is_running();
+}
 
 void Understanding::connect_probe() {
     FlareView* view = parts_.flare.view();
@@ -268,6 +270,15 @@ void Understanding::set_full_screen(bool on) {
 }
 
 void Understanding::connect_panels() {
+    const auto bring = [](QDockWidget* dock) {
+        dock->show();
+        dock->raise();
+    };
+    parts_.actions.on("sweep.run", [this, bring] {
+        bring(sweep_dock_);
+        sweep_->start();
+    });
+    parts_.actions.on("check.show", [this, bring] { bring(check_dock_); });
     connect(check_, &CheckPanel::cell_chosen, this,
             [this](int row, LensCell cell) { go_to_cell(parts_.prescription, row, cell); });
     connect(&parts_.ghosts, &GhostPanel::surface_chosen, this,

@@ -126,7 +126,6 @@ void GhostMatrix::paint_scale(QPainter& painter, const QRectF& place) const {
     for (int decade = static_cast<int>(std::ceil(high - decades));
          decade <= static_cast<int>(std::floor(high)); ++decade) {
         const double y = place.bottom() - (decade - high + decades) / decades * place.height();
-        painter.drawLine(QPointF(place.right(), y), QPointF(place.right() + 3.0, y));
         painter.drawText(QRectF(place.right() + 5.0, y - 8.0, 40.0, 16.0),
                          Qt::AlignLeft | Qt::AlignVCenter, significant(std::pow(10.0, decade), 1));
     }

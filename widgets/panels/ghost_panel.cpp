@@ -204,7 +204,7 @@ void GhostPanel::build_strip() {
     words_ = new QLineEdit;
     words_->setObjectName("ghost_filter");
     words_->setFrame(false);
-    words_->setPlaceholderText("Filter: touches 7, above 1e-6");
+    words_->setPlaceholderText("Filter, e.g. touches 7");
     words_->setClearButtonEnabled(true);
     words_->setToolTip(
         "Which ghosts are listed, in words:\n"
