@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/flare/false_color.h"
 #include "render_shaders.h"
 
 namespace ghostlight {
@@ -56,16 +57,38 @@ double PictureUpload::upload(const FlareImage& image) {
     require_size(image.rgb, image, 3, "rgb");
     color_.upload(image.width_px, image.height_px, 3, image.rgb.data());
     texture_ = {color_.name(), 0, image.width_px, image.height_px, 0.0F, 1.0F};
-    if (!image.highlight.empty()) {
-        require_size(image.highlight, image, 1, "highlight");
-        highlight_.upload(image.width_px, image.height_px, 1, image.highlight.data());
-        texture_.highlight = highlight_.name();
-        const HighlightScale scale = highlight_scale(image.highlight);
-        texture_.highlight_floor = scale.floor;
-        texture_.highlight_mean = scale.mean;
-    }
+    upload_highlight(image);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
     return took.count();
+}
+
+double PictureUpload::upload_irradiance(const FlareImage& image) {
+    const auto begin = std::chrono::steady_clock::now();
+    require_size(image.irradiance, image, 1, "irradiance");
+    color_.upload(image.width_px, image.height_px, 1, image.irradiance.data());
+    texture_ = {color_.name(), 0, image.width_px, image.height_px, 0.0F, 1.0F};
+    upload_highlight(image);
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    return took.count();
+}
+
+void PictureUpload::upload_highlight(const FlareImage& image) {
+    if (image.highlight.empty()) {
+        return;
+    }
+    require_size(image.highlight, image, 1, "highlight");
+    highlight_.upload(image.width_px, image.height_px, 1, image.highlight.data());
+    texture_.highlight = highlight_.name();
+    const HighlightScale scale = highlight_scale(image.highlight);
+    texture_.highlight_floor = scale.floor;
+    texture_.highlight_mean = scale.mean;
+}
+
+std::array<float, 3> shown_color(const PictureLook& look, std::array<float, 3> linear,
+                                 float irradiance) {
+    return look.false_color
+               ? false_color(log_place(irradiance, look.false_color->low, look.false_color->high))
+               : tone_mapped(linear, look.exposure_ev, look.tone);
 }
 
 FlareRenderer::FlareRenderer() {
@@ -79,17 +102,19 @@ FlareRenderer::FlareRenderer() {
     }
     while (glGetError() != GL_NO_ERROR) {  // another's
     }
-    program(false, false);
+    program(false, false, false);
     vertices_.create();
     check_gl("preparing the flare view");
 }
 
-const GlProgram& FlareRenderer::program(bool exact, bool highlight) {
-    std::optional<GlProgram>& made = programs_[(exact ? 1U : 0U) + (highlight ? 2U : 0U)];
+const GlProgram& FlareRenderer::program(bool exact, bool highlight, bool in_false_color) {
+    std::optional<GlProgram>& made =
+        programs_[(exact ? 1U : 0U) + (highlight ? 2U : 0U) + (in_false_color ? 4U : 0U)];
     if (!made) {
         std::string fragment = "#version 150\n";
         fragment += exact ? "#define EXACT\n" : "";
         fragment += highlight ? "#define HIGHLIGHT\n" : "";
+        fragment += in_false_color ? "#define FALSE_COLOR\n" : "";
         fragment += shaders::picture_fragment;
         made.emplace(shaders::picture_vertex, fragment);
     }
@@ -107,9 +132,15 @@ void FlareRenderer::draw(const PictureTexture& picture, const PictureFrame& fram
         glDisable(off);
     }
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    const int left_px = static_cast<int>(std::lround(look.from_share * viewport_width_px));
+    if (left_px > 0) {
+        glEnable(GL_SCISSOR_TEST);
+        glScissor(left_px, 0, std::max(0, viewport_width_px - left_px), viewport_height_px);
+    }
     glClearColor(look.surround[0], look.surround[1], look.surround[2], 1.0F);
     glClear(GL_COLOR_BUFFER_BIT);
     if (picture.color == 0) {
+        glDisable(GL_SCISSOR_TEST);
         check_gl("clearing the flare view");
         return;
     }
@@ -119,7 +150,8 @@ void FlareRenderer::draw(const PictureTexture& picture, const PictureFrame& fram
     const auto clip_y = [&](double px) { return static_cast<float>(1.0 - 2.0 * px / height); };
     const bool highlight = look.show_highlight && picture.highlight != 0;
     const double px_per_texel = frame.width_px / std::max(picture.width_px, 1);
-    const GlProgram& program_used = program(px_per_texel >= exact_px_per_texel, highlight);
+    const GlProgram& program_used =
+        program(px_per_texel >= exact_px_per_texel, highlight, look.false_color.has_value());
     const auto uniform = [&](const char* name) { return program_used.uniform(name); };
 
     glUseProgram(program_used.name());
@@ -132,6 +164,14 @@ void FlareRenderer::draw(const PictureTexture& picture, const PictureFrame& fram
                 look.highlight[2]);
     glUniform2f(uniform("outline_step"), static_cast<float>(1.0 / frame.width_px),
                 static_cast<float>(1.0 / frame.height_px));
+    glUniform1i(uniform("tone_curve"), static_cast<int>(look.tone));
+    glUniform1i(uniform("mark_clipping"), look.mark_clipping ? 1 : 0);
+    glUniform3f(uniform("clipping_color"), look.clipping[0], look.clipping[1], look.clipping[2]);
+    if (look.false_color) {
+        glUniform2f(uniform("decades"), look.false_color->low, look.false_color->high);
+        glUniform3fv(uniform("false_colors"), static_cast<GLsizei>(false_color_steps),
+                     false_colors.front().data());
+    }
     glUniform1i(uniform("color_map"), 0);
     glUniform1i(uniform("highlight_map"), 1);
     glActiveTexture(GL_TEXTURE1);
@@ -142,6 +182,7 @@ void FlareRenderer::draw(const PictureTexture& picture, const PictureFrame& fram
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     glBindVertexArray(0);
     glUseProgram(0);
+    glDisable(GL_SCISSOR_TEST);
     glActiveTexture(GL_TEXTURE1);
     glBindTexture(GL_TEXTURE_2D, 0);
     glActiveTexture(GL_TEXTURE0);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/flare/flare_image.h"
+#include "core/flare/tone_map.h"
 #include "render/gl_objects.h"
 #include "render/picture_frame.h"
 
@@ -35,9 +36,13 @@ class PictureUpload {
    public:
     /// Returns the time it took, ms. Throws Error.
     double upload(const FlareImage& image);
+    /// The irradiance instead of colours.
+    double upload_irradiance(const FlareImage& image);
     const PictureTexture& texture() const { return texture_; }
 
    private:
+    void upload_highlight(const FlareImage& image);
+
     GlTexture color_, highlight_;
     PictureTexture texture_;
 };
@@ -48,7 +53,23 @@ struct PictureLook {
     std::array<float, 3> surround{0.0F, 0.0F, 0.0F};      ///< sRGB, around the picture
     std::array<float, 3> highlight{0.22F, 0.71F, 0.79F};  ///< sRGB
     bool show_highlight = true;
+    ToneCurve tone = ToneCurve::soft;
+    bool mark_clipping = false;                         ///< stripes where a channel is beyond white
+    std::array<float, 3> clipping{1.0F, 0.48F, 0.35F};  ///< sRGB
+    /// Irradiance in false colours, between these powers of ten, in place of all the above but
+    /// the highlight. The texture then holds the irradiance.
+    struct Decades {
+        float low = -6.0F, high = 0.0F;
+        bool operator==(const Decades&) const = default;
+    };
+    std::optional<Decades> false_color = {};
+    /// Only the part of the viewport right of this share of its width; the rest is left as it is.
+    double from_share = 0.0;
+    bool operator==(const PictureLook&) const = default;
 };
+/// sRGB of a place of the picture, without highlight and stripes, as the shader has it.
+std::array<float, 3> shown_color(const PictureLook& look, std::array<float, 3> linear,
+                                 float irradiance);
 
 /// Draws a float picture tone-mapped, upright and letter-boxed. Made with a current OpenGL 3.2
 /// context, used and destroyed with it current. Throws Error instead of failing silently.
@@ -63,9 +84,9 @@ class FlareRenderer {
 
    private:
     /// One program per way of drawing, made when first needed.
-    const GlProgram& program(bool exact, bool highlight);
+    const GlProgram& program(bool exact, bool highlight, bool false_color);
 
-    std::array<std::optional<GlProgram>, 4> programs_;
+    std::array<std::optional<GlProgram>, 8> programs_;
     GlVertexArray vertices_;
 };
 

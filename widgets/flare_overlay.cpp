@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/flare/false_color.h"
 #include "widgets/light_marker.h"
 #include "widgets/number_text.h"
 #include "widgets/palette.h"
@@ -21,6 +22,7 @@ constexpr double ring_radius_px = 7.0;
 constexpr double border_px = 14.0;  // of the arrow's tip from the view's edge
 constexpr double arrow_length_px = 12.0, arrow_half_width_px = 6.0;
 constexpr double readout_offset_px = 16.0, readout_padding_px = 8.0;
+constexpr double swatch_px = 9.0;
 constexpr double under_px = 4.0;  // a dark line under the amber one keeps it visible on white
 
 /// Over a picture that is dark in either theme.
@@ -113,7 +115,7 @@ QString position_text(double x_mm, double y_mm) {
 }
 
 void paint_readout(QPainter& painter, const PictureFrame& frame, QSizeF view_px,
-                   const FlareImage& image, QPointF cursor) {
+                   const FlareImage& image, QPointF cursor, const std::vector<ReadoutLine>& lines) {
     const glm::dvec2 point = frame.sensor_from_view({cursor.x(), cursor.y()});
     const std::optional<float> irradiance = irradiance_at(image, point.x, point.y);
     if (!irradiance) {
@@ -129,11 +131,18 @@ void paint_readout(QPainter& painter, const PictureFrame& frame, QSizeF view_px,
     bold.setWeight(QFont::DemiBold);
     const QFontMetricsF bold_metrics(bold), metrics(painter.font());
     const double line = metrics.height() + 2.0;
-    const double width =
+    double width =
         std::max(bold_metrics.horizontalAdvance(position), metrics.horizontalAdvance(amount)) +
         2.0 * readout_padding_px;
+    for (const ReadoutLine& each : lines) {
+        width = std::max(width, metrics.horizontalAdvance(each.name) +
+                                    metrics.horizontalAdvance(each.amount) +
+                                    2.0 * readout_padding_px + swatch_px + 24.0);
+    }
     QRectF box(cursor.x() + readout_offset_px, cursor.y() + readout_offset_px, std::ceil(width),
-               std::ceil(2.0 * line + 2.0 * readout_padding_px - 2.0));
+
+               std::ceil((2.0 + static_cast<double>(lines.size())) * line +
+                         2.0 * readout_padding_px - 2.0));
     // On the cursor's other side where there is no room.
     if (box.right() > view_px.width() - 4.0) {
         box.moveRight(cursor.x() - readout_offset_px);
@@ -153,6 +162,49 @@ void paint_readout(QPainter& painter, const PictureFrame& frame, QSizeF view_px,
     painter.drawText(inside, Qt::AlignLeft | Qt::AlignTop, position);
     painter.setFont(plain);
     painter.drawText(inside.translated(0.0, line), Qt::AlignLeft | Qt::AlignTop, amount);
+    double top = inside.top() + 2.0 * line;
+    for (const ReadoutLine& each : lines) {
+        double left = inside.left();
+        if (each.swatch.isValid()) {
+            painter.fillRect(QRectF(left, top + (line - swatch_px) / 2.0, swatch_px, swatch_px),
+                             each.swatch);
+            left += swatch_px + 6.0;
+        }
+        const QRectF place(left, top, box.right() - readout_padding_px - left, line);
+        painter.setPen(each.amount.isEmpty() ? colors.dim : colors.text);
+        painter.drawText(place, Qt::AlignLeft | Qt::AlignVCenter, each.name);
+        painter.drawText(place, Qt::AlignRight | Qt::AlignVCenter, each.amount);
+        top += line;
+    }
+}
+
+void paint_false_color_scale(QPainter& painter, QSizeF view_px,
+                             const PictureLook::Decades& decades) {
+    constexpr int bands = 96;
+    const double height = std::min(220.0, view_px.height() - 80.0);
+    if (height < 40.0) {
+        return;
+    }
+    const QRectF bar(view_px.width() - 66.0, 44.0, 12.0, height);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(QColor(0, 0, 0, 225));
+    painter.drawRoundedRect(bar.adjusted(-10.0, -28.0, 50.0, 12.0), 4.0, 4.0);
+    for (int k = 0; k < bands; ++k) {
+        const auto rgb = false_color((static_cast<float>(k) + 0.5F) / bands);
+        painter.fillRect(QRectF(bar.left(), bar.bottom() - (k + 1) * height / bands, bar.width(),
+                                height / bands + 0.5),
+                         QColor::fromRgbF(rgb[0], rgb[1], rgb[2]));
+    }
+    painter.setPen(dark_palette().text);
+    painter.drawText(QRectF(bar.left() - 8.0, bar.top() - 24.0, 60.0, 16.0), Qt::AlignLeft,
+                     QObject::tr("E / E₀"));
+    const int low = static_cast<int>(std::lround(decades.low));
+    const int high = static_cast<int>(std::lround(decades.high));
+    for (int decade = low; decade <= high; ++decade) {
+        const double y = bar.bottom() - height * (decade - low) / std::max(1, high - low);
+        painter.drawText(QRectF(bar.right() + 5.0, y - 8.0, 44.0, 16.0),
+                         Qt::AlignLeft | Qt::AlignVCenter, significant(std::pow(10.0, decade), 1));
+    }
 }
 
 }  // namespace ghostlight

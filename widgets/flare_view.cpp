@@ -27,6 +27,9 @@ constexpr double most_zoom = 64.0;
 constexpr double eighths_per_notch = 120.0;  // as Qt counts the wheel
 constexpr double drag_start_px = 3.0;        // less is a click
 constexpr double grip_reach_px = 14.0;       // of the light's marker
+constexpr double divider_reach_px = 5.0;
+constexpr int rest_ms = 120;           // of the cursor, before ghosts are asked for
+constexpr float shown_decades = 4.0F;  // in false colours
 
 std::array<float, 3> floats(const QColor& color) {
     return {color.redF(), color.greenF(), color.blueF()};
@@ -39,7 +42,19 @@ double length(QPointF p) { return std::hypot(p.x(), p.y()); }
 
 }  // namespace
 
-FlareView::FlareView(QWidget* parent) : GlView(parent) { setCursor(Qt::CrossCursor); }
+FlareView::FlareView(QWidget* parent) : GlView(parent) {
+    setCursor(Qt::CrossCursor);
+    look_.surround = floats(picture_palette().ground);
+    look_.highlight = floats(picture_palette().teal);
+    look_.clipping = floats(picture_palette().red_orange);
+    rest_.setSingleShot(true);
+    rest_.setInterval(rest_ms);
+    connect(&rest_, &QTimer::timeout, this, [this] {
+        if (cursor_ && drag_ == Drag::none && image_) {
+            Q_EMIT rested(frame().sensor_from_view({cursor_->x(), cursor_->y()}));
+        }
+    });
+}
 
 FlareView::~FlareView() { close_gl(); }
 
@@ -48,7 +63,79 @@ void FlareView::set_image(std::shared_ptr<const FlareImage> image) {
     upload_pending_ = image_ != nullptr;
     if (image_ == nullptr) waiting_for_ = Waiting::lens;
     software_picture_ = {};
+    fit_decades();
+    if (cursor_ && drag_ == Drag::none) rest_.start();  // the ghosts there may be others
     refresh();
+}
+
+void FlareView::set_tone(ToneCurve tone) {
+    look_.tone = tone;
+    refresh();
+}
+
+void FlareView::set_mark_clipping(bool marks) {
+    look_.mark_clipping = marks;
+    refresh();
+}
+
+void FlareView::set_false_color(bool on) {
+    look_.false_color = on ? std::optional(PictureLook::Decades{}) : std::nullopt;
+    upload_pending_ = image_ != nullptr;
+    compared_pending_ = compared_ != nullptr;
+    fit_decades();
+    refresh();
+}
+
+void FlareView::fit_decades() {
+    if (!look_.false_color || !image_) {
+        return;
+    }
+    float brightest = 0.0F;
+    for (const FlareImage* image : {image_.get(), compared_.get()}) {
+        if (image != nullptr && !image->irradiance.empty()) {
+            brightest = std::max(brightest, *std::ranges::max_element(image->irradiance));
+        }
+    }
+    // Whole decades, so that the scale does not creep while a light moves.
+    const float high = brightest > 0.0F ? std::ceil(std::log10(brightest)) : 0.0F;
+    look_.false_color = PictureLook::Decades{high - shown_decades, high};
+}
+
+void FlareView::set_compared(std::shared_ptr<const FlareImage> image) {
+    compared_ = std::move(image);
+    compared_pending_ = compared_ != nullptr;
+    software_picture_ = {};
+    if (!compared_) shows_a_ = false;
+    fit_decades();
+    refresh();
+}
+
+void FlareView::set_split(bool split) {
+    split_ = split;
+    software_picture_ = {};
+    refresh();
+}
+
+void FlareView::set_showing_a(bool shows) {
+    shows_a_ = shows && compared_;
+    software_picture_ = {};
+    refresh();
+}
+
+void FlareView::set_probe(glm::dvec2 point_mm, std::vector<ReadoutLine> lines) {
+    probe_mm_ = point_mm;
+    probe_ = std::move(lines);
+    refresh();
+}
+
+PictureLook FlareView::look_of(double from_share) const {
+    PictureLook look = look_;
+    look.from_share = from_share;
+    return look;
+}
+
+void FlareView::upload(PictureUpload& to, const FlareImage& image) const {
+    look_.false_color ? to.upload_irradiance(image) : to.upload(image);
 }
 
 void FlareView::set_light(const LightDirection& light, double efl_mm) {
@@ -64,7 +151,7 @@ void FlareView::set_failed() {
 }
 
 void FlareView::set_exposure_ev(double exposure_ev) {
-    exposure_ev_ = exposure_ev;
+    look_.exposure_ev = exposure_ev;
     refresh();
 }
 
@@ -83,7 +170,9 @@ void FlareView::init_gl() {
     try {
         renderer_ = std::make_unique<FlareRenderer>();
         upload_ = std::make_unique<PictureUpload>();
+        compared_upload_ = std::make_unique<PictureUpload>();
         upload_pending_ = image_ != nullptr;
+        compared_pending_ = compared_ != nullptr;
     } catch (const Error& error) {
         fail_gl(QString::fromUtf8(error.what()));
     }
@@ -91,22 +180,34 @@ void FlareView::init_gl() {
 
 void FlareView::release_gl() {
     upload_.reset();
+    compared_upload_.reset();
     renderer_.reset();
 }
 
 void FlareView::paint_gl(unsigned, int width_px, int height_px) {
     try {
         if (upload_pending_) {
-            last_upload_ms_ = upload_->upload(*image_);
+            last_upload_ms_ =
+                look_.false_color ? upload_->upload_irradiance(*image_) : upload_->upload(*image_);
             upload_pending_ = false;
         }
-        PictureLook look;
-        look.exposure_ev = exposure_ev_;
-        look.surround = floats(picture_palette().ground);
-        look.highlight = floats(picture_palette().teal);
-        const double ratio = width_px / std::max(1.0, static_cast<double>(width()));
-        renderer_->draw(image_ ? upload_->texture() : PictureTexture{}, frame().scaled(ratio), look,
-                        width_px, height_px);
+        if (compared_pending_) {
+            upload(*compared_upload_, *compared_);
+            compared_pending_ = false;
+        }
+        const PictureFrame place =
+            frame().scaled(width_px / std::max(1.0, static_cast<double>(width())));
+        const auto draw = [&](const PictureTexture& texture, double from_share) {
+            renderer_->draw(texture, place, look_of(from_share), width_px, height_px);
+        };
+        const bool compares_now = compared_ && image_;
+        if (compares_now && (split_ || shows_a_)) {
+            draw(compared_upload_->texture(), 0.0);
+        }
+        if (!shows_a_) {
+            draw(image_ ? upload_->texture() : PictureTexture{},
+                 compares_now && split_ ? split_share_ : 0.0);
+        }
     } catch (const Error& error) {
         fail_gl(QString::fromUtf8(error.what()));
     }
@@ -119,12 +220,17 @@ void FlareView::paint_without_gl(QPainter& painter) {
         return;
     }
     const PictureFrame now = frame();
-    const bool same = !software_picture_.isNull() && software_exposure_ev_ == exposure_ev_ &&
+    const bool same = !software_picture_.isNull() && software_look_ == look_ &&
                       software_frame_ == now && software_picture_.size() == size();
     if (!same) {
-        software_picture_ = software_picture(*image_, now, size(), exposure_ev_,
-                                             picture_palette().ground, picture_palette().teal);
-        software_exposure_ev_ = exposure_ev_;
+        software_picture_ = software_picture(shows_a_ ? *compared_ : *image_, now, size(), look_);
+        if (compared_ && split_ && !shows_a_) {
+            const QImage mine = software_picture(*image_, now, size(), look_of(split_share_));
+            software_picture_ = software_picture(*compared_, now, size(), look_);
+            QPainter over(&software_picture_);
+            over.drawImage(0, 0, mine);
+        }
+        software_look_ = look_;
         software_frame_ = now;
     }
     painter.drawImage(0, 0, software_picture_);
@@ -147,9 +253,48 @@ void FlareView::paint_overlay(QPainter& painter) {
         return;
     }
     paint_light(painter, frame(), size(), light_, efl_mm_);
-    if (cursor_ && (drag_ == Drag::none || drag_ == Drag::pressed)) {
-        paint_readout(painter, frame(), size(), *image_, *cursor_);
+    if (look_.false_color) {
+        paint_false_color_scale(painter, size(), *look_.false_color);
     }
+    if (compared_) {
+        paint_comparison(painter);
+    }
+    if (cursor_ && (drag_ == Drag::none || drag_ == Drag::pressed)) {
+        const glm::dvec2 at = frame().sensor_from_view({cursor_->x(), cursor_->y()});
+        const double pixel_mm = image_->sensor_width_mm / std::max(1, image_->width_px);
+        const bool is_there = std::hypot(at.x - probe_mm_.x, at.y - probe_mm_.y) < 3.0 * pixel_mm;
+        const bool on_a =
+            compared_ && (shows_a_ || (split_ && cursor_->x() < split_share_ * width()));
+        paint_readout(painter, frame(), size(), on_a ? *compared_ : *image_, *cursor_,
+                      is_there && !on_a ? probe_ : std::vector<ReadoutLine>());
+    }
+}
+
+void FlareView::paint_comparison(QPainter& painter) const {
+    const auto label = [&](double x, const QString& text) {
+        const QRectF box(x, 10.0, 22.0, 22.0);
+        painter.setPen(Qt::NoPen);
+        painter.setBrush(QColor(0, 0, 0, 150));
+        painter.drawRoundedRect(box, 3.0, 3.0);
+        painter.setPen(picture_palette().text);
+        painter.drawText(box, Qt::AlignCenter, text);
+    };
+    if (shows_a_ || !split_) {
+        label(width() / 2.0 - 11.0, shows_a_ ? QStringLiteral("A") : QStringLiteral("B"));
+        return;
+    }
+    const double x = split_share_ * width();
+    painter.setPen(QPen(QColor(0, 0, 0, 150), 3.0));
+    painter.drawLine(QPointF(x, 0.0), QPointF(x, height()));
+    painter.setPen(QPen(picture_palette().text, 1.0));
+    painter.drawLine(QPointF(x, 0.0), QPointF(x, height()));
+    label(x - 28.0, QStringLiteral("A"));
+    label(x + 6.0, QStringLiteral("B"));
+}
+
+bool FlareView::is_over_divider(QPointF position) const {
+    return compared_ && split_ && !shows_a_ &&
+           std::abs(position.x() - split_share_ * width()) <= divider_reach_px;
 }
 
 void FlareView::drag_light_to(QPointF position) {
@@ -172,8 +317,9 @@ void FlareView::mousePressEvent(QMouseEvent* event) {
     if (event->button() == Qt::LeftButton) {
         const glm::dvec2 at = frame().view_from_sensor(light_on_sensor_mm(light_, efl_mm_));
         const QPointF off = QPointF(at.x, at.y) - pressed_at_;
-        grip_px_ = length(off) <= grip_reach_px ? off : QPointF();
-        drag_ = Drag::pressed;
+        const bool is_on_light = length(off) <= grip_reach_px;
+        grip_px_ = is_on_light ? off : QPointF();
+        drag_ = !is_on_light && is_over_divider(pressed_at_) ? Drag::divider : Drag::pressed;
     } else if (event->button() == Qt::MiddleButton) {
         drag_ = Drag::pan;
     } else {
@@ -187,8 +333,15 @@ void FlareView::mouseMoveEvent(QMouseEvent* event) {
     if (drag_ == Drag::pressed && length(position - pressed_at_) >= drag_start_px) {
         drag_ = Drag::light;
     }
+    setCursor(drag_ == Drag::divider || (drag_ == Drag::none && is_over_divider(position))
+                  ? Qt::SplitHCursor
+                  : Qt::CrossCursor);
+    if (drag_ == Drag::none && image_) rest_.start();
     if (drag_ == Drag::light) {
         drag_light_to(position);
+    } else if (drag_ == Drag::divider) {
+        split_share_ = std::clamp(position.x() / std::max(1, width()), 0.02, 0.98);
+        software_picture_ = {};
     } else if (drag_ == Drag::pan) {
         const PictureFrame now = frame();
         const QPointF moved = position - last_position_;
@@ -206,8 +359,14 @@ void FlareView::mouseReleaseEvent(QMouseEvent* event) {
         return;
     }
     const bool moved_light = drag_ == Drag::light;
+    const bool clicked = drag_ == Drag::pressed;
     drag_ = Drag::none;
     refresh();
+    if (clicked) {
+        const QPointF at = event->position();
+        Q_EMIT picked(frame().sensor_from_view({at.x(), at.y()}),
+                      (event->modifiers() & Qt::ControlModifier) != 0);
+    }
     if (moved_light) {
         Q_EMIT light_drag_finished();
     }
@@ -239,7 +398,7 @@ void FlareView::wheelEvent(QWheelEvent* event) {
     if ((event->modifiers() & Qt::ControlModifier) != 0) {
         zoom_about(event->position(), std::pow(zoom_per_notch, notches));
     } else {
-        Q_EMIT exposure_requested(exposure_ev_ + notches * ev_per_notch);
+        Q_EMIT exposure_requested(look_.exposure_ev + notches * ev_per_notch);
     }
     event->accept();
 }
@@ -254,6 +413,8 @@ void FlareView::keyPressEvent(QKeyEvent* event) {
 
 void FlareView::leaveEvent(QEvent*) {
     cursor_.reset();
+    probe_.clear();
+    rest_.stop();
     refresh();
 }
 

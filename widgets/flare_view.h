@@ -4,22 +4,24 @@
 
 #include <QImage>
 #include <QPointF>
+#include <QTimer>
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/flare/flare_image.h"
 #include "core/optics/trace.h"
+#include "render/flare_renderer.h"
 #include "render/picture_frame.h"
+#include "widgets/flare_overlay.h"
 #include "widgets/gl_view.h"
 
 namespace ghostlight {
 
-class FlareRenderer;
-class PictureUpload;
-
 /// Draws a flare picture and takes the mouse: left drag moves the light, the wheel changes the
-/// exposure, Ctrl+wheel zooms about the cursor, middle drag pans.
+/// exposure, Ctrl+wheel zooms about the cursor, middle drag pans; a click asks for the ghosts
+/// there.
 class FlareView : public GlView {
     Q_OBJECT
    public:
@@ -32,7 +34,25 @@ class FlareView : public GlView {
     /// The lens cannot be traced as it stands: says so where there is no picture.
     void set_failed();
     void set_exposure_ev(double exposure_ev);
-    double exposure_ev() const { return exposure_ev_; }
+    double exposure_ev() const { return look_.exposure_ev; }
+    /// Tone curve, false colours, clipping; the exposure stays.
+    void set_tone(ToneCurve tone);
+    void set_mark_clipping(bool marks);
+    /// Over four decades, the brightest place of the picture at rest on top.
+    void set_false_color(bool on);
+    const PictureLook& look() const { return look_; }
+    /// The pinned lens's picture: shown left of the divider, or in turn with the own one. Null ends
+    /// that.
+    void set_compared(std::shared_ptr<const FlareImage> image);
+    bool compares() const { return compared_ != nullptr; }
+    void set_split(bool split);
+    double split_share() const { return split_share_; }
+    /// While blinking: whether A is the one that is shown.
+    void set_showing_a(bool shows);
+    bool is_showing_a() const { return shows_a_; }
+    /// The ghosts at a place, with their shares; shown while the cursor stays there.
+    void set_probe(glm::dvec2 point_mm, std::vector<ReadoutLine> lines);
+    const std::vector<ReadoutLine>& probe() const { return probe_; }
     double last_upload_ms() const { return last_upload_ms_; }
     /// Brings the whole sensor into view.
     void reset_zoom();
@@ -42,6 +62,10 @@ class FlareView : public GlView {
    Q_SIGNALS:
     void light_dragged(ghostlight::LightDirection light);
     void light_drag_finished();
+    /// The cursor rests on a point of the sensor, mm.
+    void rested(glm::dvec2 point_mm);
+    /// A click on a point of the sensor; `adds` with Ctrl.
+    void picked(glm::dvec2 point_mm, bool adds);
     void exposure_requested(double exposure_ev);
     void auto_exposure_requested();
 
@@ -62,10 +86,15 @@ class FlareView : public GlView {
     void changeEvent(QEvent* event) override;
 
    private:
-    enum class Drag { none, pressed, light, pan };
+    enum class Drag { none, pressed, light, pan, divider };
 
     void drag_light_to(QPointF position);
     void zoom_about(QPointF position, double factor);
+    bool is_over_divider(QPointF position) const;
+    void fit_decades();
+    PictureLook look_of(double from_share) const;
+    void upload(PictureUpload& to, const FlareImage& image) const;
+    void paint_comparison(QPainter& painter) const;
 
     std::shared_ptr<const FlareImage> image_;
     bool upload_pending_ = false;
@@ -73,7 +102,14 @@ class FlareView : public GlView {
     Waiting waiting_for_ = Waiting::lens;  ///< while there is no picture
     LightDirection light_;
     double efl_mm_ = 50.0;
-    double exposure_ev_ = 0.0;
+    PictureLook look_;
+    std::shared_ptr<const FlareImage> compared_;
+    bool compared_pending_ = false;
+    bool split_ = true, shows_a_ = false;
+    double split_share_ = 0.5;  ///< of the view's width
+    std::vector<ReadoutLine> probe_;
+    glm::dvec2 probe_mm_{0.0, 0.0};
+    QTimer rest_;  ///< of the cursor
     double last_upload_ms_ = 0.0;
     PictureZoom zoom_;
 
@@ -83,9 +119,9 @@ class FlareView : public GlView {
     std::optional<QPointF> cursor_;
 
     std::unique_ptr<FlareRenderer> renderer_;
-    std::unique_ptr<PictureUpload> upload_;
-    QImage software_picture_;  ///< what paint_without_gl() last made, for that exposure and frame
-    double software_exposure_ev_ = 0.0;
+    std::unique_ptr<PictureUpload> upload_, compared_upload_;
+    QImage software_picture_;  ///< what paint_without_gl() last made, for that look and frame
+    PictureLook software_look_;
     PictureFrame software_frame_;
 };
 

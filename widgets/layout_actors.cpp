@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "widgets/ghost_colors.h"
 #include "widgets/palette.h"
 
 namespace ghostlight {
@@ -30,29 +31,6 @@ QColor mixed(const QColor& a, const QColor& b, double share_of_b) {
         return int(std::lround(from + (to - from) * share_of_b));
     };
     return {channel(a.red(), b.red()), channel(a.green(), b.green()), channel(a.blue(), b.blue())};
-}
-
-/// Low index blue-grey, high index green-grey, over the panel's ground.
-QColor glass_tint(double n, const Palette& colors) {
-    const double share = std::clamp((n - 1.45) / 0.45, 0.0, 1.0);
-    const QColor tint = mixed(QColor(0x6f, 0x86, 0xc4), QColor(0x55, 0xb0, 0x9c), share);
-    return mixed(colors.panel, tint, 0.30);
-}
-
-QColor ray_color(RayLeg leg, const Palette& colors) {
-    switch (leg) {
-        case RayLeg::in:
-            return colors.amber;
-        case RayLeg::between:
-            return colors.red_orange;
-        case RayLeg::out:
-            return colors.teal;
-        case RayLeg::lost:
-            return mixed(colors.panel, colors.dim, 0.45);
-        case RayLeg::direct:
-            break;
-    }
-    return mixed(colors.panel, colors.dim, 0.62);
 }
 
 /// Points with a colour each, and lines or triangles over them, of one line width.
@@ -144,6 +122,35 @@ void add_glass(Shape& shape, const GlassElement& element, const QColor& color) {
 
 }  // namespace
 
+QColor glass_tint(double n, const Palette& colors) {
+    const double share = std::clamp((n - 1.45) / 0.45, 0.0, 1.0);
+    const QColor tint = mixed(QColor(0x6f, 0x86, 0xc4), QColor(0x55, 0xb0, 0x9c), share);
+    return mixed(colors.panel, tint, 0.30);
+}
+
+bool is_many(const std::vector<RayFan>& fans) {
+    return std::ranges::count_if(fans, [](const RayFan& fan) { return !fan.path.is_direct(); }) > 1;
+}
+
+QColor ray_color(const RayFan& fan, RayLeg leg, bool many, const Palette& colors) {
+    if (leg == RayLeg::lost) {
+        return mixed(colors.panel, colors.dim, 0.45);
+    }
+    if (leg == RayLeg::direct) {
+        // On axis the plainest; fields towards the edge in colours of their own.
+        const QColor field = fan.field == 1 ? QColor(0x6f, 0xa6, 0xc6) : QColor(0xb0, 0x8f, 0xc8);
+        return fan.field == 0 ? mixed(colors.panel, colors.dim, 0.62)
+                              : mixed(colors.panel, field, 0.75);
+    }
+    if (many) {  // faint on the way in, full between, in the middle on the way out
+        const double strength = leg == RayLeg::in ? 0.45 : leg == RayLeg::between ? 1.0 : 0.75;
+        return mixed(colors.panel, ghost_color(fan.path), strength);
+    }
+    return leg == RayLeg::in        ? colors.amber
+           : leg == RayLeg::between ? colors.red_orange
+                                    : colors.teal;
+}
+
 struct LayoutActors::Parts {
     Shape glass{1.0}, axis{1.0}, direct{1.0}, outlines{1.2}, ghosts{1.5}, hard{2.4};
     std::vector<Shape*> all() { return {&glass, &axis, &direct, &outlines, &ghosts, &hard}; }
@@ -207,17 +214,18 @@ void LayoutActors::show_lens(const LensDrawing& drawing, const Palette& colors) 
     }
 }
 
-void LayoutActors::show_rays(const std::vector<RayFan>& fans, const Palette& colors) {
+void LayoutActors::show_rays(const std::vector<RayFan>& fans, const Palette& colors, double walk) {
     Shape& direct = parts_->direct;
     Shape& ghosts = parts_->ghosts;
     direct.begin();
     ghosts.begin();
+    const bool many = is_many(fans);
     for (const RayFan& fan : fans) {
-        for (const RayStretch& stretch : fan.stretches) {
+        for (const RayStretch& stretch : walked(fan.stretches, walk)) {
             const bool thin = stretch.leg == RayLeg::direct || stretch.leg == RayLeg::lost;
             (thin ? direct : ghosts)
                 .add_line(stretch.points, thin ? direct_layer : ghost_layer,
-                          ray_color(stretch.leg, colors));
+                          ray_color(fan, stretch.leg, many, colors));
         }
     }
     direct.end();

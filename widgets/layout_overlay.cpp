@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "widgets/ghost_colors.h"
+#include "widgets/number_text.h"
 #include "widgets/palette.h"
 
 namespace ghostlight {
@@ -105,6 +106,84 @@ void paint_layout_overlay(QPainter& painter, const LensDrawing& drawing,
     }
     paint_sensor_label(painter, drawing, plane);
     paint_marks(painter, fans, plane);
+}
+
+void paint_axis_marks(QPainter& painter, const std::vector<AxisMark>& marks,
+                      const PlaneView& plane) {
+    constexpr double tick_px = 6.0;
+    const Palette& colors = current_palette();
+    for (const AxisMark& mark : marks) {
+        const QPointF at = plane.to_view({mark.z_mm, 0.0});
+        const bool is_ghost = mark.kind == AxisMark::Kind::ghost_focus;
+        const QColor color = is_ghost ? ghost_color(mark.path) : colors.dim;
+        painter.setPen(QPen(color, 1.5));
+        double label_px = tick_px;
+        if (mark.half_height_mm > 0.0) {
+            painter.setPen(QPen(color, 1.25, Qt::DashLine));
+            painter.drawLine(plane.to_view({mark.z_mm, -mark.half_height_mm}),
+                             plane.to_view({mark.z_mm, mark.half_height_mm}));
+            label_px = at.y() - plane.to_view({mark.z_mm, mark.half_height_mm}).y();
+        } else if (is_ghost) {
+            painter.setBrush(color);
+            painter.drawPolygon(QPolygonF({at + QPointF(0, -5), at + QPointF(5, 0),
+                                           at + QPointF(0, 5), at + QPointF(-5, 0)}));
+        } else {
+            painter.drawLine(at + QPointF(0, -tick_px), at + QPointF(0, tick_px));
+        }
+        // Those of ghosts below the axis: they crowd around the sensor.
+        const double y = is_ghost ? at.y() + 18.0 : at.y() - label_px - 5.0;
+        painter.drawText(QRectF(at.x() - 40.0, y - 9.0, 80.0, 14.0), Qt::AlignCenter,
+                         QString::fromStdString(mark.label));
+    }
+}
+
+namespace {
+
+void paint_label(QPainter& painter, QPointF at, const QString& text, QSizeF view_px) {
+    const Palette& colors = current_palette();
+    const QFontMetricsF metrics(painter.font());
+    QRectF box(at.x() + 12.0, at.y() + 12.0, metrics.horizontalAdvance(text) + 14.0,
+               metrics.height() + 8.0);
+    box.moveLeft(std::max(2.0, std::min(box.left(), view_px.width() - box.width() - 2.0)));
+    box.moveTop(std::max(2.0, std::min(box.top(), view_px.height() - box.height() - 2.0)));
+    painter.setPen(QPen(colors.line, 1.0));
+    painter.setBrush(colors.panel);
+    painter.drawRoundedRect(box, 3.0, 3.0);
+    painter.setPen(colors.text);
+    painter.drawText(box, Qt::AlignCenter, text);
+}
+
+}  // namespace
+
+void paint_meeting(QPainter& painter, const RayMeeting& meeting, const PlaneView& plane) {
+    const QPointF at = plane.to_view(meeting.at);
+    painter.setPen(QPen(current_palette().teal, 1.5));
+    painter.setBrush(Qt::NoBrush);
+    painter.drawEllipse(at, 4.0, 4.0);
+    paint_label(painter, at,
+                QObject::tr("surface %1 · %2 · %3° · R %4 % · T %5 %")
+                    .arg(meeting.row + 1)
+                    .arg(meeting.reflected ? QObject::tr("reflected") : QObject::tr("passes"),
+                         QString::number(meeting.incidence_deg, 'f', 1),
+                         significant(100.0 * meeting.reflectance, 3),
+                         significant(100.0 * meeting.transmittance, 4)),
+                plane.size_px());
+}
+
+void paint_measure(QPainter& painter, DrawingPoint from, DrawingPoint to, const PlaneView& plane) {
+    const Palette& colors = current_palette();
+    const QPointF a = plane.to_view(from), b = plane.to_view(to);
+    painter.setPen(QPen(colors.teal, 1.5));
+    painter.drawLine(a, b);
+    for (const QPointF& end : {a, b}) {
+        painter.drawEllipse(end, 3.0, 3.0);
+    }
+    paint_label(
+        painter, b,
+        QObject::tr("%1 mm   along %2   across %3")
+            .arg(significant(std::hypot(to.x - from.x, to.y - from.y)),
+                 significant(std::abs(to.x - from.x)), significant(std::abs(to.y - from.y))),
+        plane.size_px());
 }
 
 }  // namespace ghostlight

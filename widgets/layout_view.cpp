@@ -47,9 +47,12 @@ LayoutView::LayoutView(QWidget* parent)
 
 LayoutView::~LayoutView() { close_gl(); }
 
-void LayoutView::show_drawing(LensDrawing drawing, std::vector<RayFan> fans) {
+void LayoutView::show_drawing(LensDrawing drawing, std::vector<RayFan> fans,
+                              std::vector<AxisMark> marks) {
     drawing_ = std::move(drawing);
     fans_ = std::move(fans);
+    marks_ = std::move(marks);
+    hovered_meeting_.reset();
     nothing_.clear();
     if (static_cast<std::size_t>(hovered_row_) > drawing_.surfaces.size()) {
         hover(0);
@@ -63,10 +66,48 @@ void LayoutView::show_drawing(LensDrawing drawing, std::vector<RayFan> fans) {
 void LayoutView::show_nothing(const QString& text) {
     drawing_ = {};
     fans_.clear();
+    marks_.clear();
+    hovered_meeting_.reset();
+    measured_.reset();
     nothing_ = text;
     fitted_ = true;
     hover(0);
     rebuild();
+}
+
+void LayoutView::set_walk(double share) {
+    walk_ = share;
+    actors_->show_rays(fans_, current_palette(), walk_);
+    refresh();
+}
+
+void LayoutView::set_measuring(bool measures) {
+    measures_ = measures;
+    measured_.reset();
+    setCursor(measures ? Qt::CrossCursor : Qt::ArrowCursor);
+    refresh();
+}
+
+double LayoutView::measured_mm() const {
+    return measured_ ? std::hypot(measured_->second.x - measured_->first.x,
+                                  measured_->second.y - measured_->first.y)
+                     : 0.0;
+}
+
+const RayMeeting* LayoutView::meeting_at(QPointF position) const {
+    const RayMeeting* nearest = nullptr;
+    double least_px = hover_reach_px;
+    for (const RayFan& fan : fans_) {
+        for (const RayMeeting& meeting : fan.meetings) {
+            const QPointF off = plane_.to_view(meeting.at) - position;
+            const double distance = std::hypot(off.x(), off.y());
+            if (distance < least_px) {
+                least_px = distance;
+                nearest = &meeting;
+            }
+        }
+    }
+    return nearest;
 }
 
 void LayoutView::fit() {
@@ -77,7 +118,7 @@ void LayoutView::fit() {
 
 void LayoutView::rebuild() {
     actors_->show_lens(drawing_, current_palette());
-    actors_->show_rays(fans_, current_palette());
+    actors_->show_rays(fans_, current_palette(), walk_);
     refresh();
 }
 
@@ -115,6 +156,12 @@ void LayoutView::paint_overlay(QPainter& painter) {
                          hovered_row_ > 0 && row <= drawing_.surfaces.size()
                              ? &drawing_.surfaces[row - 1]
                              : nullptr);
+    paint_axis_marks(painter, marks_, plane_);
+    if (measured_) {
+        paint_measure(painter, measured_->first, measured_->second, plane_);
+    } else if (hovered_meeting_) {
+        paint_meeting(painter, *hovered_meeting_, plane_);
+    }
 }
 
 int LayoutView::row_at(QPointF position) const {
@@ -162,11 +209,19 @@ void LayoutView::resizeEvent(QResizeEvent* event) {
 
 void LayoutView::mousePressEvent(QMouseEvent* event) {
     last_position_ = event->position();
+    if (measures_ && event->button() == Qt::LeftButton) {
+        const DrawingPoint at = plane_.to_drawing(event->position());
+        measured_ = std::pair(at, at);
+        refresh();
+    }
     event->setAccepted(event->button() == Qt::LeftButton || event->button() == Qt::MiddleButton);
 }
 
 void LayoutView::mouseMoveEvent(QMouseEvent* event) {
-    if ((event->buttons() & (Qt::LeftButton | Qt::MiddleButton)) != 0) {
+    if (measures_ && measured_ && (event->buttons() & Qt::LeftButton) != 0) {
+        measured_->second = plane_.to_drawing(event->position());
+        refresh();
+    } else if ((event->buttons() & (Qt::LeftButton | Qt::MiddleButton)) != 0) {
         if (event->position() != last_position_) {
             setCursor(Qt::ClosedHandCursor);
             plane_.pan(event->position() - last_position_);
@@ -175,12 +230,17 @@ void LayoutView::mouseMoveEvent(QMouseEvent* event) {
         }
     } else {
         hover(row_at(event->position()));
+        const RayMeeting* meeting = meeting_at(event->position());
+        if ((meeting != nullptr) != hovered_meeting_.has_value() || meeting != nullptr) {
+            hovered_meeting_ = meeting != nullptr ? std::optional(*meeting) : std::nullopt;
+            refresh();
+        }
     }
     last_position_ = event->position();
 }
 
 void LayoutView::mouseReleaseEvent(QMouseEvent* event) {
-    setCursor(Qt::ArrowCursor);
+    setCursor(measures_ ? Qt::CrossCursor : Qt::ArrowCursor);
     hover(row_at(event->position()));
 }
 
@@ -211,7 +271,11 @@ void LayoutView::keyPressEvent(QKeyEvent* event) {
     }
 }
 
-void LayoutView::leaveEvent(QEvent*) { hover(0); }
+void LayoutView::leaveEvent(QEvent*) {
+    hovered_meeting_.reset();
+    hover(0);
+    refresh();
+}
 
 void LayoutView::changeEvent(QEvent* event) {
     if (event->type() == QEvent::PaletteChange || event->type() == QEvent::StyleChange) {

@@ -42,6 +42,7 @@
 #include "widgets/panels/status_line.h"
 #include "widgets/panels/stop_panel.h"
 #include "widgets/settings.h"
+#include "widgets/understanding.h"
 #include "widgets/unknown_glass.h"
 
 namespace ghostlight {
@@ -82,6 +83,7 @@ MainWindow::MainWindow(bool remembers, MakeGlEngine make_gl)
 
 MainWindow::~MainWindow() {
     // Children may still signal while they go, after the members that listen are gone.
+    understanding_.reset();
     certificate_.reset();
     jobs_.reset();
     document_.disconnect(this);
@@ -130,6 +132,11 @@ void MainWindow::build_panels() {
     stop_dock_ = add_dock(stop_, "stop", "Stop", Qt::RightDockWidgetArea);
     light_dock_ = add_dock(light_, "light", "Light", Qt::RightDockWidgetArea);
     report_dock_ = add_dock(report_, "import_report", "Import report", Qt::BottomDockWidgetArea);
+    understanding_ = std::make_unique<Understanding>(Understanding::Parts{
+        *this, document_, selection_, actions_, *prescription_, *layout_, *flare_, *ghosts_,
+        [this](QWidget* panel, const char* name, const QString& title) {
+            return add_dock(panel, name, title, Qt::BottomDockWidgetArea);
+        }});
 
     status_ = new StatusLine(document_);
     statusBar()->setSizeGripEnabled(false);
@@ -158,10 +165,21 @@ void MainWindow::build_menus() {
          "edit.move_down", "edit.make_stop", "-", "edit.mend_glass", "edit.absorption"});
     actions_.add_menu(
         bar, "&Ghosts",
-        {"ghosts.copy", "ghosts.clear", "-", "ghosts.all", "ghosts.above_3", "ghosts.above_2"});
+        {"ghosts.filter", "ghosts.as_table", "ghosts.as_matrix", "ghosts.as_surfaces", "-",
+         "ghosts.copy", "ghosts.clear", "-", "ghosts.all", "ghosts.above_3", "ghosts.above_2"});
+    actions_.add_menu(
+        bar, "&Compare",
+        {"compare.pin", "compare.restore", "compare.unpin", "-", "compare.split", "compare.blink"});
     QMenu* view = actions_.add_menu(bar, "&View", {"view.fit", "view.expose", "-"});
-    for (QDockWidget* dock : {prescription_dock_, layout_dock_, ghost_dock_, first_order_dock_,
-                              stop_dock_, light_dock_, report_dock_}) {
+    actions_.fill(*view->addMenu("&Flare"),
+                  {"flare.false_color", "flare.clipping", "-", "tone.soft", "tone.linear",
+                   "tone.log", "-", "flare.full_screen"});
+    actions_.fill(*view->addMenu("La&yout"), {"layout.fields", "layout.marks", "layout.stopped",
+                                              "-", "layout.measure", "layout.export"});
+    view->addSeparator();
+    for (QDockWidget* dock :
+         {prescription_dock_, layout_dock_, ghost_dock_, first_order_dock_, stop_dock_, light_dock_,
+          report_dock_, understanding_->check_dock(), understanding_->sweep_dock()}) {
         view->addAction(dock->toggleViewAction());
     }
     actions_.fill(*view, {"view.next_panel", "view.previous_panel", "view.reset", "-", "report.all",
@@ -189,6 +207,7 @@ void MainWindow::arrange_panels() {
         addDockWidget(place.area, place.dock);
         place.dock->show();
     }
+    understanding_->arrange(report_dock_);
     // Those that are seldom wanted together share a place.
     tabifyDockWidget(first_order_dock_, stop_dock_);
     tabifyDockWidget(stop_dock_, light_dock_);
@@ -401,7 +420,7 @@ bool MainWindow::open(const std::filesystem::path& file) { return files_->open(f
 
 bool MainWindow::is_settled() const {
     return !jobs_->is_busy() && !scene_update_.isActive() && first_order_->is_settled() &&
-           stop_->is_settled();
+           stop_->is_settled() && understanding_->is_settled();
 }
 
 void MainWindow::show_scene() {

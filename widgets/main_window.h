@@ -29,6 +29,7 @@ class PrescriptionPanel;
 class SceneBar;
 class StatusLine;
 class StopPanel;
+class Understanding;
 
 /// The workbench: panels around one document. It only puts together; what each part does is in
 /// its own file.
@@ -66,6 +67,7 @@ class MainWindow : public QMainWindow {
     StopPanel& stop_panel() { return *stop_; }
     LightPanel& light_panel() { return *light_; }
     LayersStrip& layers_strip() { return *layers_; }
+    Understanding& understanding() { return *understanding_; }
     const std::optional<FlarePicture>& picture() const { return picture_; }
 
    Q_SIGNALS:
@@ -133,6 +135,8 @@ class MainWindow : public QMainWindow {
     QDockWidget* first_order_dock_ = nullptr;
     QDockWidget* stop_dock_ = nullptr;
     QDockWidget* light_dock_ = nullptr;
+
+    std::unique_ptr<Understanding> understanding_;
 
     QTimer scene_update_;  ///< many changes, one drawing
     std::optional<FlarePicture> picture_;

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/optics/coating.h"
+#include "core/units.h"
+
 namespace ghostlight {
 
 namespace {
@@ -128,13 +131,14 @@ DrawingPoint start(const Beam& beam, double v_mm, double lead_in_mm) {
 
 void add_surviving(RayFan& fan, const TracedRay& traced, DrawingPoint from) {
     std::size_t reflections = 0;
-    fan.stretches.push_back({leg_after(fan.path, 0), {from}});
+    const int ray = fan.rays;
+    fan.stretches.push_back({leg_after(fan.path, 0), {from}, ray});
     for (const RayHit& hit : traced.hits) {
         fan.stretches.back().points.push_back(drawn(hit.point));
         if (hit.reflected) {
             const RayLeg next = leg_after(fan.path, ++reflections);
             if (next != fan.stretches.back().leg) {
-                fan.stretches.push_back({next, {drawn(hit.point)}});
+                fan.stretches.push_back({next, {drawn(hit.point)}, ray});
             }
         }
     }
@@ -144,7 +148,7 @@ void add_surviving(RayFan& fan, const TracedRay& traced, DrawingPoint from) {
 }
 
 void add_lost(RayFan& fan, const TracedRay& traced, DrawingPoint from) {
-    RayStretch stretch{RayLeg::lost, {from}};
+    RayStretch stretch{RayLeg::lost, {from}, -1 - static_cast<int>(fan.stretches.size())};
     for (const RayHit& hit : traced.hits) {
         stretch.points.push_back(drawn(hit.point));
         if (hit.r_rel > 1.0) {
@@ -153,6 +157,27 @@ void add_lost(RayFan& fan, const TracedRay& traced, DrawingPoint from) {
     }
     if (stretch.points.size() > 1) {
         fan.stretches.push_back(std::move(stretch));
+    }
+}
+
+void add_meetings(RayFan& fan, const OpticalSystem& system, const std::vector<PathEvent>& path,
+                  const TracedRay& traced) {
+    for (std::size_t k = 0; k < std::min(path.size(), traced.hits.size()); ++k) {
+        const RayHit& hit = traced.hits[k];
+        const SurfaceAt& surface = surface_at(system, hit.surface);
+        const double cosine = std::clamp(std::abs(hit.cos_incidence), 0.0, 1.0);
+        RayMeeting meeting{hit.surface, drawn(hit.point), deg_from_rad(std::acos(cosine)), 0.0,
+                           1.0,         hit.reflected};
+        if (surface.uniform_reflectance) {
+            meeting.reflectance = *surface.uniform_reflectance;
+            meeting.transmittance = 1.0 - meeting.reflectance;
+        } else {
+            const Reflectances shares =
+                reflectances(path[k].forward ? surface.film : reversed(surface.film), cosine);
+            meeting.reflectance = shares.r();
+            meeting.transmittance = shares.t();
+        }
+        fan.meetings.push_back(meeting);
     }
 }
 
@@ -187,17 +212,66 @@ RayFan ray_fan(const OpticalSystem& system, const GhostPath& path, double field_
     fan.v_low_mm = spans.front().low_mm;
     fan.v_high_mm = spans.back().high_mm;
     const std::vector<double> v_mm = places(spans, rays);
+    const std::vector<PathEvent> meetings = events(path, system.surfaces.size());
     for (std::size_t k = 0; k < v_mm.size(); ++k) {
         const TracedRay traced = trace_ray(system, path, beam.ray(v_mm[k]));
         if (traced.status.fate != RayFate::ok) {
             continue;  // an island too narrow for its neighbour's step
         }
         add_surviving(fan, traced, start(beam, v_mm[k], lead_in_mm));
+        add_meetings(fan, system, meetings, traced);
         if (k == v_mm.size() / 2) {
             add_marks(fan, traced);
         }
     }
     return fan;
+}
+
+void add_stopped_rays(const OpticalSystem& system, double field_deg, int rays, double lead_in_mm,
+                      RayFan& fan) {
+    const Beam beam = meridional_beam(system, field_deg);
+    for (const double v : places({{beam.low_mm, beam.high_mm}}, rays)) {
+        const TracedRay traced = trace_ray(system, fan.path, beam.ray(v));
+        if (traced.status.fate != RayFate::ok) {
+            add_lost(fan, traced, start(beam, v, lead_in_mm));
+        }
+    }
+}
+
+std::vector<RayStretch> walked(const std::vector<RayStretch>& stretches, double share) {
+    if (share >= 1.0) {
+        return stretches;
+    }
+    const auto length = [](const RayStretch& stretch) {
+        double sum = 0.0;
+        for (std::size_t k = 1; k < stretch.points.size(); ++k) {
+            sum += glm::distance(stretch.points[k - 1], stretch.points[k]);
+        }
+        return sum;
+    };
+    std::vector<RayStretch> kept;
+    for (std::size_t first = 0; first < stretches.size();) {
+        std::size_t end = first;
+        double whole = 0.0;
+        while (end < stretches.size() && stretches[end].ray == stretches[first].ray) {
+            whole += length(stretches[end++]);
+        }
+        double left = share * whole;
+        for (; first < end && left > 0.0; ++first) {
+            RayStretch part{
+                stretches[first].leg, {stretches[first].points.front()}, stretches[first].ray};
+            for (std::size_t k = 1; k < stretches[first].points.size() && left > 0.0; ++k) {
+                const DrawingPoint a = stretches[first].points[k - 1];
+                const DrawingPoint b = stretches[first].points[k];
+                const double step = glm::distance(a, b);
+                part.points.push_back(step <= left ? b : a + (b - a) * (left / step));
+                left -= step;
+            }
+            kept.push_back(std::move(part));
+        }
+        first = end;
+    }
+    return kept;
 }
 
 }  // namespace ghostlight

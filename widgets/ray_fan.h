@@ -18,6 +18,16 @@ enum class RayLeg { direct, in, between, out, lost };
 struct RayStretch {
     RayLeg leg = RayLeg::direct;
     Polyline points;
+    int ray = 0;  ///< of its fan: the stretches of one ray follow each other
+};
+
+/// What happens where a ray meets a surface.
+struct RayMeeting {
+    std::size_t row = 0;  ///< from 0; the count of surfaces for the sensor's face
+    DrawingPoint at{};
+    double incidence_deg = 0.0;                     ///< in the medium that the ray comes from
+    double reflectance = 0.0, transmittance = 1.0;  ///< of unpolarised light
+    bool reflected = false;
 };
 
 /// Where a fan's middle ray is reflected; numbers count from 1.
@@ -35,7 +45,9 @@ struct RayFan {
     int rays = 0;           ///< that reach the sensor
     double v_low_mm = 0.0;  ///< where they lie in the beam, across it
     double v_high_mm = 0.0;
-    std::vector<double> sensor_y_mm;  ///< one per ray that reaches it
+    std::vector<double> sensor_y_mm;   ///< one per ray that reaches it
+    std::vector<RayMeeting> meetings;  ///< of all rays that reach it
+    int field = 0;                     ///< of direct fans at several fields: which
 };
 
 /// Parts of the beam, in mm across it in the meridional plane, whose rays reach the sensor.
@@ -49,5 +61,12 @@ std::vector<PupilSpan> surviving_spans(const OpticalSystem& system, const GhostP
 /// none survives in this plane, the fan shows rays of the whole aperture up to where they end.
 RayFan ray_fan(const OpticalSystem& system, const GhostPath& path, double field_deg, int rays,
                double lead_in_mm);
+
+/// Adds the rays of the whole aperture that do not arrive, up to where they are stopped.
+void add_stopped_rays(const OpticalSystem& system, double field_deg, int rays, double lead_in_mm,
+                      RayFan& fan);
+
+/// The stretches of rays along which light has come after a share of each ray's way, 0 to 1.
+std::vector<RayStretch> walked(const std::vector<RayStretch>& stretches, double share);
 
 }  // namespace ghostlight

@@ -88,6 +88,21 @@ bool shows_comments() { return QSettings().value("columns/comments", false).toBo
 
 void set_shows_comments(bool shown) { QSettings().setValue("columns/comments", shown); }
 
+std::optional<QStringList> hidden_ghost_columns() {
+    const QVariant stored = QSettings().value("columns/hidden_ghost_columns");
+    return stored.isValid() ? std::optional(stored.toStringList()) : std::nullopt;
+}
+
+void set_hidden_ghost_columns(const QStringList& names) {
+    QSettings().setValue("columns/hidden_ghost_columns", names);
+}
+
+bool is_on(const QString& action, bool otherwise) {
+    return QSettings().value("switches/" + action, otherwise).toBool();
+}
+
+void set_on(const QString& action, bool on) { QSettings().setValue("switches/" + action, on); }
+
 QString folder() { return QSettings().value("folder", QDir::homePath()).toString(); }
 
 void set_folder(const QString& folder) { QSettings().setValue("folder", folder); }

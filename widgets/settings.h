@@ -3,6 +3,8 @@
 #include <QByteArray>
 #include <QStringList>
 
+#include <optional>
+
 #include "render/gl_flare/engine_choice.h"
 #include "widgets/theme.h"
 
@@ -46,6 +48,15 @@ bool shows_aspheres();
 void set_shows_aspheres(bool shown);
 bool shows_comments();
 void set_shows_comments(bool shown);
+
+/// Columns of the ghost table that are not shown, by the names that scripts know; nothing where
+/// nobody has chosen yet.
+std::optional<QStringList> hidden_ghost_columns();
+void set_hidden_ghost_columns(const QStringList& names);
+
+/// A switch of a view, by the id of its action.
+bool is_on(const QString& action, bool otherwise);
+void set_on(const QString& action, bool on);
 
 /// Where file dialogs open.
 QString folder();

@@ -25,5 +25,7 @@ void add_accuracy(CLI::App& program);
 void add_stability(CLI::App& program);
 void add_lenses(CLI::App& program);
 void add_convert(CLI::App& program);
+void add_check(CLI::App& program);
+void add_sweep(CLI::App& program);
 
 }  // namespace ghostlight::cli

@@ -9,6 +9,7 @@
 #include "app/cli/html_report.h"
 #include "app/cli/output.h"
 #include "app/cli/report.h"
+#include "core/ghosts/ghost_query.h"
 #include "core/ghosts/ghost_table.h"
 #include "core/io/table_file.h"
 
@@ -19,7 +20,7 @@ struct GhostsOptions {
     LensOptions lens;
     LightOptions light;
     SpectrumOptions spectrum;
-    std::string top, tolerance = "0.01", columns, four, by, wide, html;
+    std::string top, tolerance = "0.01", columns, four, by, wide, html, where;
     std::string command;  ///< as typed, for the report
     bool paraxial = false, tidy = false, sensitivities = false;
     OutputOptions output;
@@ -116,6 +117,14 @@ std::string key_of(const GhostsOptions& options) {
     return "ghost";
 }
 
+/// Leaves the ghosts that a query in words is about.
+void keep_wanted(const std::string& where, GhostTable& table) {
+    const GhostQuery query =
+        read_option("--where", [&] { return parse_ghost_query(where, table.surface_count); });
+    const GhostTable all = table;
+    std::erase_if(table.ghosts, [&](const GhostRow& row) { return !passes(query, row, all); });
+}
+
 void count_unconverged(const GhostTable& table, std::size_t& unconverged, std::size_t& rows) {
     unconverged += table.direct.converged ? 0 : 1;
     for (const GhostRow& row : table.ghosts) unconverged += row.converged ? 0 : 1;
@@ -193,6 +202,7 @@ void run(const GhostsOptions& options) {
             });
             count_unconverged(ghosts, unconverged, rows);
             if (tables.empty()) first = ghosts;
+            if (!options.where.empty()) keep_wanted(options.where, ghosts);
             // Sums are over all of them, whatever is shown.
             if (plan.top && options.by.empty() && *plan.top < ghosts.ghosts.size())
                 ghosts.ghosts.resize(*plan.top);
@@ -238,6 +248,9 @@ void add_ghosts(CLI::App& program) {
     add_light(*command, options->light)->required();
     add_spectrum(*command, options->spectrum);
     add_text(*command, "--top", options->top, "N", "the N strongest only");
+    add_text(
+        *command, "--where", options->where, "WORDS",
+        "those alone that meet this, such as \"touches 7 and above 1e-6\"; sums are over them");
     add_text(*command, "--tolerance", options->tolerance, "X",
              "error allowed for each flux, as a share of it (or 1e-6 of the strongest\nghost, if "
              "that is larger)")

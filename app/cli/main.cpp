@@ -68,6 +68,8 @@ int run(std::vector<std::string> arguments) {
     add_trace(program);
     add_coating(program);
     add_ghosts(program);
+    add_sweep(program);
+    add_check(program);
     add_render(program);
     add_starburst(program);
     add_synth(program);

@@ -6,11 +6,13 @@
 #include <QLocale>
 #include <QSurfaceFormat>
 
+#include <algorithm>
 #include <clocale>
 #include <cstdio>
 #include <exception>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/ghosts/ghost_path.h"
 #include "core/optics/optical_system.h"
@@ -33,7 +35,9 @@ Opens the lens-flare workbench, on a lens file if one is given.
                   panels (panel_NAME.png), ghosts.csv and flare.exr into DIR, and exit
   --every-panel   with --snapshot: every panel, not the tabbed ones alone
   --theme NAME    dark or light, this time
-  --ghost PAIR    a ghost to select at first, e.g. 5-3
+  --ghost PAIRS   ghosts to select at first, e.g. 5-3 or 5-3,7-2
+  --do ACTIONS    what to do at first, one after the other: ids of the menus' entries, e.g.
+                  ghosts.as_matrix,flare.false_color
   --engine NAME   what draws flares, this time: automatic, cpu or opengl
   --size WxH      size of the window in pixels, e.g. 1366x768
   --help          this text
@@ -58,6 +62,9 @@ std::optional<QSize> parse_size(const QString& text) {
                        size.height() >= least && size.width() <= most && size.height() <= most;
     return sound ? std::optional(size) : std::nullopt;
 }
+
+/// For one action's results before the next, at most.
+constexpr int settling_ms = 300'000;
 
 void set_surface_format() {
     // VTK needs a core context of 3.2 or later; one format for all, since contexts are shared.
@@ -117,10 +124,24 @@ int run(QApplication& application, const QCommandLineParser& options) {
     if (options.isSet("ghost")) {
         const ghostlight::OpticalSystem system =
             ghostlight::compile(window.document().configured_lens(), ghostlight::d_line_nm);
-        window.selection().set_ghosts(
-            {ghostlight::parse_ghost(options.value("ghost").toStdString(), system)});
+        std::vector<ghostlight::GhostPath> ghosts;
+        for (const QString& ghost : options.value("ghost").split(',')) {
+            ghosts.push_back(ghostlight::parse_ghost(ghost.toStdString(), system));
+        }
+        window.selection().set_ghosts(std::move(ghosts));
     }
     window.show();
+    if (const QString wanted = options.value("do"); !wanted.isEmpty()) {
+        const auto known = ghostlight::action_texts();
+        for (const QString& id : wanted.split(',')) {
+            if (std::ranges::none_of(known, [&](const auto& text) { return id == text.id; })) {
+                return fail("--do: found " + id.toStdString() +
+                            ", expected an action such as ghosts.as_matrix or compare.pin");
+            }
+            ghostlight::wait_until_settled(window, settling_ms);
+            window.actions()[id].trigger();
+        }
+    }
     if (!snapshot) {
         window.welcome();
         return QApplication::exec();
@@ -167,6 +188,7 @@ int main(int argc, char** argv) {
                         {"engine", "", "NAME"},
                         {"every-panel", ""},
                         {"theme", "", "NAME"},
+                        {"do", "", "ACTIONS"},
                         {"ghost", "", "PAIR"}});
     options.addPositionalArgument("LENS", "");
     if (!options.parse(QCoreApplication::arguments())) {

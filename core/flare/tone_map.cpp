@@ -34,4 +34,22 @@ std::array<float, 3> tone_mapped(std::array<float, 3> linear, double exposure_ev
     return linear;
 }
 
+std::array<float, 3> tone_mapped(std::array<float, 3> linear, double exposure_ev, ToneCurve curve) {
+    if (curve == ToneCurve::soft) return tone_mapped(linear, exposure_ev);
+    const float scale = static_cast<float>(std::exp2(exposure_ev));
+    float largest = 0.0f;
+    for (float& channel : linear) {
+        channel = std::min(std::max(channel * scale, 0.0f), 1e30f);
+        largest = std::max(largest, channel);
+    }
+    const float mapped =
+        curve == ToneCurve::linear
+            ? std::min(largest, 1.0f)
+            : srgb_decoded(
+                  std::clamp(1.0f + std::log2(std::max(largest, 1e-30f)) / tone_stops, 0.0f, 1.0f));
+    for (float& channel : linear)
+        channel = srgb_encoded(channel * (mapped / std::max(largest, 1e-30f)));
+    return linear;
+}
+
 }  // namespace ghostlight

@@ -19,4 +19,13 @@ inline constexpr float tone_shoulder = 0.8f;
 /// PNG only; files keep linear values.
 std::array<float, 3> tone_mapped(std::array<float, 3> linear, double exposure_ev);
 
+/// How brightness is shown. Each changes the largest channel and keeps the hue.
+enum class ToneCurve {
+    soft,    ///< tone_mapped() above
+    linear,  ///< m, cut off at 1
+    log      ///< sRGB 1 + log2(m) / tone_stops: so many stops below white, evenly
+};
+inline constexpr float tone_stops = 8.0f;
+std::array<float, 3> tone_mapped(std::array<float, 3> linear, double exposure_ev, ToneCurve curve);
+
 }  // namespace ghostlight

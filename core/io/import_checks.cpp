@@ -6,6 +6,7 @@
 
 #include "core/io/import_steps.h"
 #include "core/io/json_value.h"
+#include "core/optics/rim.h"
 #include "core/units.h"
 
 namespace ghostlight {
@@ -47,13 +48,6 @@ std::string listed(const std::vector<std::size_t>& rows) {
     return text;
 }
 
-/// Height of a sphere's or ellipsoid's edge; infinite for what has none.
-double edge_mm(const Surface& surface) {
-    const double c = curvature_per_mm(surface.curve);
-    const double bend = (1.0 + surface.conic) * c * c;
-    return bend > 0.0 ? 1.0 / std::sqrt(bend) : std::numeric_limits<double>::infinity();
-}
-
 bool is_stated(const ImportedLens& imported, std::size_t row) {
     return imported.surfaces[row].semi_diameter_mm.value_or(0.0) > 0.0;
 }
@@ -79,7 +73,7 @@ void check_diameters(const ImportedLens& imported, Notes& notes) {
     std::vector<std::size_t> beyond, still_beyond;
     for (std::size_t row = 0; row < lens.surfaces.size(); ++row) {
         if (!is_stated(imported, row)) continue;
-        const double edge = edge_mm(lens.surfaces[row]);
+        const double edge = edge_height_mm(lens.surfaces[row]);
         if (lens.surfaces[row].semi_diameter_mm > edge) beyond.push_back(row);
         if (0.5 * lens.surfaces[row].semi_diameter_mm > edge) still_beyond.push_back(row);
     }
@@ -158,16 +152,14 @@ void check_units(const ImportedLens& imported, Notes& notes) {
 void check_overlaps(const ImportedLens& imported, Notes& notes) {
     const std::vector<Surface>& rows = imported.lens.surfaces;
     for (std::size_t row = 0; row + 1 < rows.size(); ++row) {
-        const double h = std::min({rows[row].semi_diameter_mm, rows[row + 1].semi_diameter_mm});
-        const double gap_mm =
-            rows[row].thickness_mm + sag_mm(rows[row + 1], h) - sag_mm(rows[row], h);
+        const RimGap rims = rim_gap(imported.lens, row);
         // Rounded listings of cemented and touching surfaces overlap by a hair.
-        if (gap_mm >= -1e-3 * h) continue;
+        if (!rims.crosses()) continue;
         notes.push_back(
             {Severity::warning, imported.surfaces[row].where,
              fmt::format("surfaces {} and {} cross: at {:.4g} mm from the axis they overlap by "
                          "{:.3g} mm",
-                         row + 1, row + 2, h, -gap_mm),
+                         row + 1, row + 2, rims.height_mm, -rims.gap_mm),
              Fate::noticed, true, "check the thickness, the order and the semi-diameters"});
     }
 }

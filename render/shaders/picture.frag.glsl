@@ -2,6 +2,9 @@
 // EXACT, shows pixels as squares. Compiled apart, since a software rasteriser runs every branch.
 uniform sampler2D color_map;
 uniform float scale;  // 2^exposure
+uniform int tone_curve;
+uniform int mark_clipping;
+uniform vec3 clipping_color;  // sRGB
 in vec2 sensor;
 out vec4 shown;
 
@@ -33,15 +36,33 @@ float outline(float own) {
 }
 #endif
 
+#ifdef FALSE_COLOR
+uniform vec2 decades;          // the scale's ends, log10 of irradiance
+uniform vec3 false_colors[9];  // sRGB, evenly
+
+vec3 shown_color(vec4 value) {
+    float place = value.r > 0.0
+        ? clamp((log(value.r) / log(10.0) - decades.x) / (decades.y - decades.x), 0.0, 1.0) : 0.0;
+    float at = place * 8.0;
+    int k = min(int(at), 7);
+    return mix(false_colors[k], false_colors[k + 1], at - float(k));
+}
+#else
+vec3 shown_color(vec4 value) {
+    vec3 mapped = tone_mapped_by(value.rgb, scale, tone_curve);
+    float largest = max(value.r, max(value.g, value.b)) * scale;
+    bool striped = mod(gl_FragCoord.x + gl_FragCoord.y, 8.0) < 4.0;
+    return mark_clipping != 0 && largest > 1.0 && striped ? clipping_color : mapped;
+}
+#endif
+
 void main() {
-    vec3 linear = fetched(color_map, sensor).rgb;
+    vec3 mapped = shown_color(fetched(color_map, sensor));
 #ifdef HIGHLIGHT
     // By the ghosts' own scale, so that a faint one can be found among brighter ones.
     float own = fetched(highlight_map, sensor).r;
     float tint = own > highlight_floor ? 0.12 + 0.45 * own / (own + highlight_mean) : 0.0;
-    vec3 mapped = mix(tone_mapped(linear, scale), highlight_color, max(tint, 0.9 * outline(own)));
-#else
-    vec3 mapped = tone_mapped(linear, scale);
+    mapped = mix(mapped, highlight_color, max(tint, 0.9 * outline(own)));
 #endif
     shown = vec4(mapped, 1.0);
 }

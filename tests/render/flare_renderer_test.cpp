@@ -107,6 +107,61 @@ TEST_F(FlareRendererTest, ToneMapsAsTheCoreDoes) {
     }
 }
 
+TEST_F(FlareRendererTest, CurvesAndFalseColoursAreTheCores) {
+    constexpr int columns = 96, rows = 4;
+    FlareImage image = picture(columns, rows);
+    for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < columns; ++column) {
+            const float value = static_cast<float>(std::pow(10.0, -5.0 + 7.0 * column / columns));
+            set(image, column, row, value, 0.5F * value, 0.1F * value);
+            image.irradiance[static_cast<std::size_t>(row * columns + column)] = value;
+        }
+    }
+    PictureLook linear, log, colors;
+    linear.tone = ToneCurve::linear;
+    log.tone = ToneCurve::log;
+    colors.false_color = PictureLook::Decades{-4.0F, 1.0F};
+    for (const PictureLook& look : {linear, log, colors}) {
+        look.false_color ? upload_.upload_irradiance(image) : upload_.upload(image);
+        Screen screen(columns, rows);
+        screen.draw(renderer_, upload_.texture(), whole(image, columns, rows), look);
+        for (int x = 0; x < columns; ++x) {
+            const auto i = static_cast<std::size_t>(columns - 1 - x);
+            const auto expected =
+                shown_color(look, {image.rgb[3 * i], image.rgb[3 * i + 1], image.rgb[3 * i + 2]},
+                            image.irradiance[i]);
+            const Rgb8 shown = screen.at(x, rows - 1);
+            ASSERT_NEAR(shown.r / 255.0, static_cast<double>(expected[0]), display_tolerance) << x;
+            ASSERT_NEAR(shown.g / 255.0, static_cast<double>(expected[1]), display_tolerance) << x;
+            ASSERT_NEAR(shown.b / 255.0, static_cast<double>(expected[2]), display_tolerance) << x;
+        }
+    }
+}
+
+TEST_F(FlareRendererTest, LeavesWhatIsLeftOfADivider) {
+    FlareImage red = picture(40, 20), green = picture(40, 20);
+    for (int row = 0; row < 20; ++row) {
+        for (int column = 0; column < 40; ++column) {
+            set(red, column, row, 0.5F, 0.0F, 0.0F);
+            set(green, column, row, 0.0F, 0.5F, 0.0F);
+        }
+    }
+    PictureUpload other;
+    upload_.upload(red);
+    other.upload(green);
+    const PictureFrame frame = whole(red, 40, 20);
+    OffscreenTarget target(40, 20);
+    target.bind();
+    renderer_.draw(upload_.texture(), frame, {}, 40, 20);
+    PictureLook right;
+    right.from_share = 0.25;
+    renderer_.draw(other.texture(), frame, right, 40, 20);
+    const std::vector<std::uint8_t> pixels = target.read();
+    EXPECT_GT(pixels[4 * 9], 100);       // red left of the tenth column
+    EXPECT_GT(pixels[4 * 10 + 1], 100);  // green from there on
+    EXPECT_EQ(pixels[4 * 10], 0);
+}
+
 TEST_F(FlareRendererTest, ShowsTheUprightCameraPicture) {
     // One mark near the sensor's (+x, +y) corner: low on the left of the picture.
     FlareImage image = picture(30, 20);

@@ -116,9 +116,7 @@ TEST_F(FlarePanelTest, SoftwareDrawingMatchesOpenGl) {
     }
     panel_.show_image(image);
     const QImage gl = panel_.grab_view();
-    const QImage software =
-        software_picture(*image, view().frame(), view().size(), panel_.exposure_ev(),
-                         current_palette().ground, current_palette().teal);
+    const QImage software = software_picture(*image, view().frame(), view().size(), view().look());
     for (const auto& [x_mm, y_mm] :
          {std::pair{12.0, 5.0}, {12.0, -8.0}, {-12.0, 5.0}, {-12.0, -8.0}}) {
         const QPointF at = on_view(x_mm, y_mm);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "widgets/ghost_colors.h"
@@ -49,6 +50,11 @@ constexpr std::array<ColumnText, GhostTableModel::column_count> columns = {{
      "negative before the sensor."},
     {"Width mm", "x_extent_mm", "width", "Extent on the sensor plane, horizontal."},
     {"Height mm", "y_extent_mm", "height", "Extent on the sensor plane, vertical."},
+    {"Flux A mm²", "flux_a_mm2", "flux of A", "The same ghost's flux in the pinned lens A."},
+    {"B − A mm²", "flux_difference_mm2", "difference from A",
+     "What the ghost gained since A was pinned; negative where it is weaker now."},
+    {"A → B", "flux_ratio", "change from A",
+     "Flux now over flux of A: × 0.5 is half as strong as in the pinned lens."},
     {"Rays", "rays", "rays", "Rays traced for this row's numbers."},
 }};
 
@@ -60,6 +66,21 @@ constexpr double bar_decades = 4.0;
 
 QString sorted_by(int column) {
     return QString::fromUtf8(columns[static_cast<std::size_t>(column)].order);
+}
+
+QString column_id(int column) {
+    return QString::fromUtf8(columns[static_cast<std::size_t>(column)].copied);
+}
+
+QString column_title(int column) {
+    return column == GhostTableModel::magnitude
+               ? QStringLiteral("Bar")
+               : QString::fromUtf8(columns[static_cast<std::size_t>(column)].header);
+}
+
+bool is_of_comparison(int column) {
+    return column == GhostTableModel::flux_a || column == GhostTableModel::difference ||
+           column == GhostTableModel::ratio;
 }
 
 int GhostTableModel::rowCount(const QModelIndex& parent) const {
@@ -104,10 +125,49 @@ double GhostTableModel::number(const GhostRow& row, int column) const {
             return row.box.empty() ? 0.0 : row.box.x1_mm - row.box.x0_mm;
         case height:
             return row.box.empty() ? 0.0 : row.box.y1_mm - row.box.y0_mm;
+        case flux_a:
+        case difference:
+        case ratio: {
+            const auto found = flux_before_mm2_.find(row.path);
+            if (found == flux_before_mm2_.end()) {
+                return std::numeric_limits<double>::quiet_NaN();
+            }
+            return column == flux_a       ? found->second
+                   : column == difference ? row.flux_mm2 - found->second
+                                          : row.flux_mm2 / found->second;
+        }
         case rays:
             return static_cast<double>(row.rays);
         default:
             return row.flux_mm2;
+    }
+}
+
+QVariant GhostTableModel::text(const GhostRow& row, int column) const {
+    const double value = number(row, column);
+    switch (column) {
+        case ghost:
+            return QString::fromStdString(name(row.path, table_->surface_count));
+        case magnitude:
+            return {};
+        case centroid_x:
+        case centroid_y:
+            return significant(std::abs(value) < on_axis_mm ? 0.0 : value);
+        case rays:
+            return grouped(row.rays);
+        case on_sensor:
+            return significant(100.0 * value, 3);
+        case reflectance_1:
+        case reflectance_2:
+            return significant(100.0 * value);
+        case flux_a:
+        case difference:
+            return std::isnan(value) ? QStringLiteral("–") : significant(value, 3);
+        case ratio:
+            return !std::isfinite(value) ? QStringLiteral("–")
+                                         : QStringLiteral("× ") + significant(value, 3);
+        default:
+            return significant(value);
     }
 }
 
@@ -120,26 +180,9 @@ QVariant GhostTableModel::data(const QModelIndex& index, int role) const {
     const double value = number(ghost_row, column);
     switch (role) {
         case Qt::DisplayRole:
-            switch (column) {
-                case ghost:
-                    return QString::fromStdString(name(ghost_row.path, table_->surface_count));
-                case magnitude:
-                    return {};
-                case centroid_x:
-                case centroid_y:
-                    return significant(std::abs(value) < on_axis_mm ? 0.0 : value);
-                case rays:
-                    return grouped(ghost_row.rays);
-                case on_sensor:
-                    return significant(100.0 * value, 3);
-                case reflectance_1:
-                case reflectance_2:
-                    return significant(100.0 * value);
-                default:
-                    return significant(value);
-            }
-        case sort_role:
-            return value;
+            return text(ghost_row, column);
+        case sort_role:  // what does not exist comes last, and in an order
+            return std::isnan(value) ? -std::numeric_limits<double>::infinity() : value;
         case bar_role: {
             const double strongest = table_->ghosts.front().flux_mm2;
             if (column != magnitude || !(value > 0.0) || !(strongest > 0.0)) {
@@ -199,6 +242,19 @@ void GhostTableModel::set_table(std::shared_ptr<const GhostTable> table) {
     endResetModel();
 }
 
+void GhostTableModel::set_before(std::shared_ptr<const GhostTable> before) {
+    before_ = std::move(before);
+    flux_before_mm2_.clear();
+    if (before_) {
+        for (const GhostRow& row : before_->ghosts) {
+            flux_before_mm2_[row.path] = row.flux_mm2;
+        }
+    }
+    if (rowCount() > 0) {
+        Q_EMIT dataChanged(index(0, flux_a), index(rowCount() - 1, ratio));
+    }
+}
+
 void GhostTableModel::set_stale(bool stale) {
     if (stale == stale_) {
         return;
@@ -221,8 +277,11 @@ int GhostTableModel::find(const GhostPath& path) const {
 QString GhostTableModel::clipboard_text(const std::vector<int>& rows) const {
     QStringList lines;
     QStringList cells;
+    const auto is_copied = [&](int column) {
+        return column != magnitude && (before_ || !is_of_comparison(column));
+    };
     for (int column = 0; column < column_count; ++column) {
-        if (column != magnitude) {
+        if (is_copied(column)) {
             cells << columns[static_cast<std::size_t>(column)].copied;
         }
     }
@@ -230,7 +289,7 @@ QString GhostTableModel::clipboard_text(const std::vector<int>& rows) const {
     for (const int k : rows) {
         cells = {QString::fromStdString(name(row(k).path, table_->surface_count))};
         for (int column = flux; column < column_count; ++column) {
-            if (column != magnitude) {
+            if (is_copied(column)) {
                 cells << shortest(number(row(k), column));
             }
         }

@@ -2,6 +2,7 @@
 
 #include <QAbstractTableModel>
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -31,6 +32,9 @@ class GhostTableModel : public QAbstractTableModel {
         focus,
         width,
         height,
+        flux_a,  ///< these three while there is a table to compare with
+        difference,
+        ratio,
         rays,
         column_count
     };
@@ -48,6 +52,9 @@ class GhostTableModel : public QAbstractTableModel {
 
     void set_table(std::shared_ptr<const GhostTable> table);
     const std::shared_ptr<const GhostTable>& table() const { return table_; }
+    /// The table of the pinned lens, to compare with; null ends that.
+    void set_before(std::shared_ptr<const GhostTable> before);
+    bool compares() const { return before_ != nullptr; }
     void set_stale(bool stale);
     bool is_stale() const { return stale_; }
 
@@ -59,10 +66,18 @@ class GhostTableModel : public QAbstractTableModel {
 
    private:
     double number(const GhostRow& row, int column) const;
+    QVariant text(const GhostRow& row, int column) const;
 
-    std::shared_ptr<const GhostTable> table_;
+    std::shared_ptr<const GhostTable> table_, before_;
+    std::map<GhostPath, double> flux_before_mm2_;
     bool stale_ = false;
 };
+
+/// The name of a column that scripts know, empty for the bar's; and what people call it.
+QString column_id(int column);
+QString column_title(int column);
+/// The columns that are only there while two lenses are compared.
+bool is_of_comparison(int column);
 
 /// What a column is sorted by, in words: "flux".
 QString sorted_by(int column);

@@ -1,30 +1,43 @@
 #include "widgets/panels/ghost_panel.h"
 
 #include <QClipboard>
+#include <QFrame>
 #include <QGuiApplication>
+#include <QHBoxLayout>
 #include <QHeaderView>
+#include <QLabel>
+#include <QLineEdit>
 #include <QMenu>
+#include <QSignalBlocker>
 #include <QSortFilterProxyModel>
 #include <QStackedWidget>
+#include <QStyle>
 #include <QTableView>
+#include <QToolButton>
 #include <QVBoxLayout>
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
+#include "core/error.h"
+#include "core/ghosts/ghost_query.h"
 #include "widgets/actions.h"
 #include "widgets/models/ghost_table_model.h"
+#include "widgets/models/surface_sums_model.h"
 #include "widgets/panel_header.h"
 #include "widgets/panels/empty_state.h"
+#include "widgets/panels/ghost_matrix.h"
 #include "widgets/panels/plain_table.h"
+#include "widgets/panels/quiet_button.h"
 #include "widgets/panels/table_delegate.h"
 #include "widgets/selection.h"
 #include "widgets/settings.h"
 
 namespace ghostlight {
 
-/// Sorts by the numbers themselves and leaves out ghosts below a share of the strongest.
+/// Sorts by the numbers themselves and leaves out ghosts below a share of the strongest, and those
+/// that the filter's words do not want.
 class GhostFilter : public QSortFilterProxyModel {
    public:
     GhostFilter(GhostTableModel& model, QObject* parent)
@@ -37,16 +50,26 @@ class GhostFilter : public QSortFilterProxyModel {
         invalidateFilter();
     }
 
+    void set_query(GhostQuery query) {
+        if (query != query_) {
+            query_ = std::move(query);
+            invalidateFilter();
+        }
+    }
+
    protected:
     bool filterAcceptsRow(int row, const QModelIndex&) const override {
-        const auto& ghosts = model_.table()->ghosts;
-        return threshold_ <= 0.0 ||
-               model_.row(row).flux_mm2 >= threshold_ * ghosts.front().flux_mm2;
+        const GhostTable& table = *model_.table();
+        const GhostRow& ghost = model_.row(row);
+        return (threshold_ <= 0.0 ||
+                ghost.flux_mm2 >= threshold_ * table.ghosts.front().flux_mm2) &&
+               passes(query_, ghost, table);
     }
 
    private:
     GhostTableModel& model_;
     double threshold_ = 0.0;
+    GhostQuery query_;
 };
 
 namespace {
@@ -73,6 +96,16 @@ QTableView* make_table(QAbstractItemModel* model, QObject* parent) {
     return table;
 }
 
+QTableView* make_sums(QAbstractItemModel* model, QObject* parent) {
+    QTableView* table = plain_table(
+        model, new TableDelegate(SurfaceSumsModel::bar_role, SurfaceSumsModel::stale_role, parent));
+    table->setObjectName("surface_sums");
+    table->setSelectionMode(QAbstractItemView::SingleSelection);
+    table->setSelectionBehavior(QAbstractItemView::SelectRows);
+    table->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    return table;
+}
+
 }  // namespace
 
 GhostPanel::GhostPanel(Selection& selection, const Actions& actions, QWidget* parent)
@@ -83,18 +116,26 @@ GhostPanel::GhostPanel(Selection& selection, const Actions& actions, QWidget* pa
       filter_(new GhostFilter(*model_, this)),
       header_(new PanelHeader("Ghosts")),
       table_(make_table(filter_, this)),
+      matrix_(new GhostMatrix),
+      sums_(new SurfaceSumsModel(this)),
+      surfaces_(make_sums(sums_, this)),
       empty_(new EmptyState(what_is_here, "Open a lens…")),
       working_(new EmptyState("Tracing the lens's ghosts…", QString())),
       cannot_(new EmptyState("No ghosts yet: the lens cannot be traced as it stands.", QString())),
       pages_(new QStackedWidget) {
     pages_->addWidget(empty_);
     pages_->addWidget(table_);
+    pages_->addWidget(matrix_);
+    pages_->addWidget(surfaces_);
     pages_->addWidget(working_);
     pages_->addWidget(cannot_);
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
     column->addWidget(header_);
+    build_strip();
+    column->addWidget(strip_);
+    column->addWidget(problem_);
     column->addWidget(pages_, 1);
 
     connect(empty_, &EmptyState::action_triggered, &actions["file.open"], &QAction::trigger);
@@ -105,15 +146,194 @@ GhostPanel::GhostPanel(Selection& selection, const Actions& actions, QWidget* pa
             &GhostPanel::show_state);
     connect(table_, &QWidget::customContextMenuRequested, this, [this](const QPoint& at) {
         QMenu menu;
-        actions_.fill(menu, {"ghosts.copy", "ghosts.clear", "-", "ghosts.all", "ghosts.above_3",
-                             "ghosts.above_2", "-", "file.export_table"});
+        actions_.fill(menu, {"ghosts.filter", "-", "ghosts.copy", "ghosts.clear", "-", "ghosts.all",
+                             "ghosts.above_3", "ghosts.above_2", "-", "file.export_table"});
         menu.exec(table_->viewport()->mapToGlobal(at));
     });
+    connect(matrix_, &GhostMatrix::selected, &selection_, &Selection::set_ghosts);
+    connect(surfaces_, &QTableView::doubleClicked, this, [this](const QModelIndex& index) {
+        const std::size_t row = sums_->sum(index.row()).surface;
+        if (row < sums_->surface_count()) {
+            Q_EMIT surface_chosen(static_cast<int>(row));
+        }
+    });
+    connect(surfaces_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+            [this](const QModelIndex& index) {
+                if (index.isValid()) {
+                    const std::size_t row = sums_->sum(index.row()).surface;
+                    words_->setText(row == sums_->surface_count()
+                                        ? QStringLiteral("touches sensor")
+                                        : QStringLiteral("touches %1").arg(row + 1));
+                }
+            });
+    table_->horizontalHeader()->setContextMenuPolicy(Qt::CustomContextMenu);
+    connect(table_->horizontalHeader(), &QWidget::customContextMenuRequested, this,
+            &GhostPanel::choose_columns);
     connect_actions(actions);
+    show_columns();
+    set_look(Look::table);
     set_threshold(settings::ghost_threshold());
 }
 
 GhostPanel::~GhostPanel() = default;
+
+void GhostPanel::build_strip() {
+    strip_ = new QFrame;
+    strip_->setObjectName("layers_strip");  // looks like the flare's
+    strip_->setFixedHeight(40);
+    strip_->setMinimumWidth(1);
+    strip_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    auto* row = new QHBoxLayout(strip_);
+    row->setContentsMargins(6, 6, 6, 6);
+    row->setSpacing(2);
+    const struct {
+        const char* id;
+        const char* text;
+        Look look;
+    } looks[] = {{"ghosts.as_table", "Table", Look::table},
+                 {"ghosts.as_matrix", "Matrix", Look::matrix},
+                 {"ghosts.as_surfaces", "Surfaces", Look::surfaces}};
+    for (const auto& each : looks) {
+        QAction& action = actions_[each.id];
+        QToolButton* button = quiet_button(each.text, action.statusTip(), true);
+        row->addWidget(button);
+        connect(button, &QToolButton::clicked, this, [this, look = each.look] { set_look(look); });
+        connect(&action, &QAction::triggered, this, [this, look = each.look] { set_look(look); });
+        connect(&action, &QAction::toggled, button, &QToolButton::setChecked);
+    }
+    words_ = new QLineEdit;
+    words_->setObjectName("ghost_filter");
+    words_->setFrame(false);
+    words_->setPlaceholderText("Filter, e.g. touches 7");
+    words_->setClearButtonEnabled(true);
+    words_->setToolTip(
+        "Which ghosts are listed, in words:\n"
+        "touches surface 7\nfocus within 5 mm of the sensor\nabove 1e-6   (flux, mm²)\n"
+        "below 1 % of the strongest\non sensor above 50 %\nRMS below 2 mm\n5-3\n"
+        "joined by 'and' or a comma, 'or', and 'not'. Also: relative, peak, x, y, R1, R2, angle 1, "
+        "angle 2, width, height, area");
+    words_->setAccessibleName("Filter of ghosts");
+    words_frame_ = new QFrame;
+    words_frame_->setProperty("field", true);
+    auto* inside = new QHBoxLayout(words_frame_);
+    inside->setContentsMargins(8, 0, 4, 0);
+    inside->addWidget(words_);
+    row->addSpacing(6);
+    row->addWidget(words_frame_, 1);
+    QToolButton* columns = quiet_button("Columns", "Choose the table's columns", false);
+    row->addWidget(columns);
+    connect(columns, &QToolButton::clicked, this, &GhostPanel::choose_columns);
+    problem_ = new QLabel;
+    problem_->setObjectName("refusal");
+    problem_->setWordWrap(true);
+    problem_->hide();
+    connect(words_, &QLineEdit::textChanged, this, &GhostPanel::read_filter);
+}
+
+void GhostPanel::set_look(Look look) {
+    look_ = look;
+    const std::pair<const char*, Look> looks[] = {{"ghosts.as_table", Look::table},
+                                                  {"ghosts.as_matrix", Look::matrix},
+                                                  {"ghosts.as_surfaces", Look::surfaces}};
+    for (const auto& [id, each] : looks) {
+        actions_[id].setChecked(false);  // so that the button follows, whatever was clicked
+        actions_[id].setChecked(each == look);
+    }
+    for (QToolButton* button : strip_->findChildren<QToolButton*>()) {
+        if (button->isCheckable()) {
+            button->setChecked(button->text() == (look == Look::table    ? "Table"
+                                                  : look == Look::matrix ? "Matrix"
+                                                                         : "Surfaces"));
+        }
+    }
+    show_state();
+}
+
+QString GhostPanel::filter_problem() const {
+    return problem_->isHidden() ? QString() : problem_->text();
+}
+
+void GhostPanel::read_filter() {
+    const auto& table = model_->table();
+    QString problem;
+    selecting_ = true;  // what is no longer listed stays selected
+    try {
+        filter_->set_query(parse_ghost_query(words_->text().toStdString(),
+                                             table ? table->surface_count : any_surface_count));
+    } catch (const Error& error) {
+        problem = QStringLiteral("%1: expected %2")
+                      .arg(QString::fromStdString(error.parts().found),
+                           QString::fromStdString(error.parts().expected));
+    }
+    selecting_ = false;
+    problem_->setText(problem);
+    problem_->setVisible(!problem.isEmpty());
+    words_frame_->setProperty("refused", !problem.isEmpty());
+    words_frame_->style()->unpolish(words_frame_);
+    words_frame_->style()->polish(words_frame_);
+    select_in_table();
+    show_state();
+}
+
+void GhostPanel::show_columns() {
+    // Until somebody chooses: what most questions are about.
+    const QStringList hidden = settings::hidden_ghost_columns().value_or(
+        QStringList{"incidence_1_deg", "incidence_2_deg", "x_extent_mm", "y_extent_mm"});
+    for (int column = GhostTableModel::flux; column < GhostTableModel::column_count; ++column) {
+        const bool is_bar = column == GhostTableModel::magnitude;
+        const QString id = is_bar ? QStringLiteral("bar") : column_id(column);
+        table_->setColumnHidden(
+            column, is_of_comparison(column) ? !model_->compares() : hidden.contains(id));
+    }
+}
+
+void GhostPanel::choose_columns() {
+    QMenu menu;
+    for (int column = GhostTableModel::flux; column < GhostTableModel::column_count; ++column) {
+        if (is_of_comparison(column)) {
+            continue;
+        }
+        QAction* action = menu.addAction(column_title(column));
+        action->setCheckable(true);
+        action->setChecked(!table_->isColumnHidden(column));
+        action->setData(column);
+    }
+    menu.addSeparator();
+    QAction* usual = menu.addAction("The Usual Ones");
+    QAction* taken = menu.exec(QCursor::pos());
+    if (taken == nullptr) {
+        return;
+    }
+    QStringList hidden;
+    if (taken == usual) {
+        hidden = {"incidence_1_deg", "incidence_2_deg", "x_extent_mm", "y_extent_mm"};
+    } else {
+        for (const QAction* action : menu.actions()) {
+            const int column = action->data().toInt();
+            if (action->isCheckable() && !action->isChecked()) {
+                hidden << (column == GhostTableModel::magnitude ? QStringLiteral("bar")
+                                                                : column_id(column));
+            }
+        }
+    }
+    settings::set_hidden_ghost_columns(hidden);
+    show_columns();
+}
+
+void GhostPanel::set_before(std::shared_ptr<const GhostTable> before) {
+    const bool compared = model_->compares();
+    model_->set_before(std::move(before));
+    if (model_->compares() != compared) {
+        show_columns();
+        // What is compared comes first: beside the flux.
+        QHeaderView* header = table_->horizontalHeader();
+        for (int k = 0; k < 3; ++k) {
+            const int column = GhostTableModel::flux_a + k;
+            header->moveSection(header->visualIndex(column), model_->compares() ? 2 + k : column);
+        }
+        fit_columns(*table_);
+    }
+}
 
 void GhostPanel::connect_actions(const Actions& actions) {
     for (const Threshold& threshold : thresholds) {
@@ -123,6 +343,11 @@ void GhostPanel::connect_actions(const Actions& actions) {
                     set_threshold(share);
                 });
     }
+    connect(&actions["ghosts.filter"], &QAction::triggered, this, [this] {
+        set_look(look_ == Look::surfaces ? Look::table : look_);
+        words_->setFocus();
+        words_->selectAll();
+    });
     connect(&actions["ghosts.copy"], &QAction::triggered, this, &GhostPanel::copy_rows);
     connect(&actions["ghosts.clear"], &QAction::triggered, this,
             [this] { selection_.set_ghosts({}); });
@@ -149,12 +374,23 @@ void GhostPanel::set_table(std::shared_ptr<const GhostTable> table) {
     failed_ = false;
     is_working_ = false;
     selecting_ = true;  // rows may change their places, ghosts stay selected
-    model_->set_table(std::move(table));
+    const bool other_surfaces =
+        !model_->table() || model_->table()->surface_count != table->surface_count;
+    model_->set_table(table);
+    matrix_->show_table(table);
+    {
+        const QSignalBlocker quiet(surfaces_->selectionModel());
+        sums_->set_table(table);
+    }
     filter_->invalidate();
     selecting_ = false;
+    if (other_surfaces) {
+        read_filter();
+    }
     select_in_table();
     if (was_empty) {
         fit_columns(*table_);
+        fit_columns(*surfaces_);
     }
     show_state();
 }
@@ -178,6 +414,8 @@ void GhostPanel::clear() {
     failed_ = false;
     is_working_ = false;
     model_->set_table(nullptr);
+    matrix_->show_table(nullptr);
+    sums_->set_table(nullptr);
     show_state();
 }
 
@@ -207,6 +445,7 @@ void GhostPanel::select_from_views() {
 }
 
 void GhostPanel::select_in_table() {
+    matrix_->set_selected(selection_.ghosts());
     if (selecting_) {
         return;
     }
@@ -236,7 +475,10 @@ void GhostPanel::show_state() {
                                : QString());
         return;
     }
-    pages_->setCurrentWidget(table_);
+    matrix_->set_stale(model_->is_stale());
+    pages_->setCurrentWidget(look_ == Look::matrix     ? static_cast<QWidget*>(matrix_)
+                             : look_ == Look::surfaces ? static_cast<QWidget*>(surfaces_)
+                                                       : table_);
     const int listed = filter_->rowCount();
     QString state =
         listed == all ? QString::number(all) : QStringLiteral("%1 of %2").arg(listed).arg(all);

@@ -6,21 +6,26 @@
 
 #include "core/ghosts/ghost_table.h"
 
+class QFrame;
 class QLabel;
+class QLineEdit;
 class QStackedWidget;
 class QTableView;
+class QToolButton;
 
 namespace ghostlight {
 
 class Actions;
 class EmptyState;
 class GhostFilter;
+class GhostMatrix;
 class GhostTableModel;
 class PanelHeader;
 class Selection;
+class SurfaceSumsModel;
 
-/// The ghost table: sorted and filtered as the reader likes, its selected rows are the selected
-/// ghosts of all views.
+/// The ghosts as a table, as a matrix of surfaces, or summed by surface. What is selected here is
+/// selected in all views; a line of words says which ghosts are listed.
 class GhostPanel : public QWidget {
     Q_OBJECT
    public:
@@ -29,6 +34,13 @@ class GhostPanel : public QWidget {
 
     GhostTableModel& model() { return *model_; }
     QTableView& table() { return *table_; }
+    GhostMatrix& matrix() { return *matrix_; }
+    QTableView& surfaces() { return *surfaces_; }
+    QLineEdit& filter_line() { return *words_; }
+    /// What is wrong with the filter's words; empty if nothing is.
+    QString filter_problem() const;
+    /// The table of the pinned lens, whose columns come with it; null ends the comparison.
+    void set_before(std::shared_ptr<const GhostTable> before);
 
     void set_table(std::shared_ptr<const GhostTable> table);
     /// A newer table is on its way; `share` of it is done.
@@ -37,8 +49,18 @@ class GhostPanel : public QWidget {
     void clear();
     void copy_rows() const;
 
+   Q_SIGNALS:
+    /// Row from 0 whose coating somebody wants to look at.
+    void surface_chosen(int row);
+
    private:
+    enum class Look { table, matrix, surfaces };
+    void build_strip();
     void connect_actions(const Actions& actions);
+    void set_look(Look look);
+    void read_filter();
+    void show_columns();
+    void choose_columns();
     void set_threshold(double share);
     void select_from_views();
     void select_in_table();
@@ -51,6 +73,14 @@ class GhostPanel : public QWidget {
     GhostFilter* filter_;
     PanelHeader* header_;
     QTableView* table_;
+    GhostMatrix* matrix_;
+    SurfaceSumsModel* sums_;
+    QTableView* surfaces_;
+    QFrame* strip_ = nullptr;
+    QFrame* words_frame_ = nullptr;
+    QLineEdit* words_ = nullptr;
+    QLabel* problem_ = nullptr;
+    Look look_ = Look::table;
     EmptyState* empty_;
     EmptyState* working_;  ///< until a lens's first table is there
     EmptyState* cannot_;   ///< while a lens cannot be traced, and none could before it

@@ -10,6 +10,8 @@
 #include "core/optics/prescription.h"
 #include "core/optics/trace.h"
 
+class QSlider;
+
 namespace ghostlight {
 
 class LayoutView;
@@ -33,6 +35,15 @@ class LayoutPanel : public QWidget {
     void clear();
     /// Brings the whole lens, from the incoming rays to the sensor, into view.
     void fit();
+    /// Direct rays on axis, at 0.7 of the field and at its edge besides those of the light.
+    void set_several_fields(bool on);
+    /// Pupils, foci, principal points, and the foci of the ghosts that are shown.
+    void set_marks(bool on);
+    /// Rays of ghosts that do not arrive.
+    void set_stopped_rays(bool on);
+    void set_measuring(bool on);
+    /// Writes the drawing; a failure is said in the header. False then.
+    bool export_to(const QString& file);
     LayoutView* view() const { return view_; }
     /// What the view shows, in device pixels; null if it cannot be drawn.
     QImage grab_view();
@@ -43,9 +54,20 @@ class LayoutPanel : public QWidget {
 
    private:
     void show_state();
+    void draw();
 
     PanelHeader* header_ = nullptr;
     LayoutView* view_ = nullptr;
+    QSlider* walk_ = nullptr;
+    struct Shown {
+        Prescription lens;  ///< configured
+        LightDirection light;
+        double wavelength_nm = 587.5618;
+        std::vector<GhostPath> selected;
+    };
+    Shown shown_;
+    bool several_fields_ = false, shows_marks_ = false, shows_stopped_ = false;
+    QString export_failure_;
     QString lens_name_;
     QStringList surface_texts_;  ///< what the header says of each surface
     QString direct_text_;

@@ -50,5 +50,20 @@ TEST(ToneMap, OddValuesStayWithinTheDisplay) {
     }
 }
 
+TEST(ToneCurves, LinearIsCutOffAndLogIsEvenInStops) {
+    const auto gray = [](float value, double ev, ToneCurve curve) {
+        return tone_mapped({value, value, value}, ev, curve)[1];
+    };
+    // sRGB of 0.9, by the standard's formula, and nothing above white.
+    EXPECT_NEAR(gray(0.45f, 1.0, ToneCurve::linear), 1.055 * std::pow(0.9, 1 / 2.4) - 0.055, 1e-5);
+    EXPECT_EQ(gray(3.0f, 0.0, ToneCurve::linear), 1.0f);
+    for (int stop = 0; stop <= 8; ++stop)
+        EXPECT_NEAR(gray(std::exp2(-static_cast<float>(stop)), 0.0, ToneCurve::log),
+                    1.0 - stop / 8.0, 1e-4);
+    EXPECT_EQ(gray(0.0f, 0.0, ToneCurve::log), 0.0f);
+    EXPECT_EQ(tone_mapped({0.3f, 2.0f, 0.1f}, 0.5, ToneCurve::soft),
+              tone_mapped({0.3f, 2.0f, 0.1f}, 0.5));
+}
+
 }  // namespace
 }  // namespace ghostlight
