@@ -152,10 +152,13 @@ void MainWindow::build_menus() {
     actions_.fill(*file, {"-", "file.save", "file.save_as", "-", "file.export_lens",
                           "file.export_ghost", "file.export_table", "file.export_exr",
                           "file.export_png", "-", "file.glass_folders", "-", "file.quit"});
-    actions_.add_menu(
-        bar, "&Edit",
-        {"edit.undo", "edit.redo", "-", "edit.insert", "edit.delete", "edit.move_up",
-         "edit.move_down", "edit.make_stop", "-", "edit.mend_glass", "edit.absorption"});
+    actions_.add_menu(bar, "&Edit", {"edit.undo",       "edit.redo",          "-",
+                                     "edit.insert",     "edit.delete",        "edit.move_up",
+                                     "edit.move_down",  "edit.make_stop",     "-",
+                                     "edit.copy_cells", "edit.paste_cells",   "edit.vary",
+                                     "edit.auto_size",  "edit.own_thickness", "-",
+                                     "edit.scale",      "edit.reverse",       "-",
+                                     "edit.mend_glass", "edit.absorption"});
     actions_.add_menu(
         bar, "&Ghosts",
         {"ghosts.copy", "ghosts.clear", "-", "ghosts.all", "ghosts.above_3", "ghosts.above_2"});
@@ -165,8 +168,8 @@ void MainWindow::build_menus() {
         view->addAction(dock->toggleViewAction());
     }
     actions_.fill(*view, {"view.reset", "-", "report.all", "report.matters", "report.copy",
-                          "first_order.copy", "-", "view.aspheres", "view.comments", "-",
-                          "view.light_theme"});
+                          "first_order.copy", "-", "view.curvatures", "view.aspheres",
+                          "view.comments", "-", "view.light_theme"});
     actions_.fill(*view->addMenu("&Draw Flares With"),
                   {"engine.automatic", "engine.cpu", "engine.opengl"});
     actions_.add_menu(bar, "&Help", {"help.guide", "help.about"});

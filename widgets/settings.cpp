@@ -62,6 +62,10 @@ bool shows_comments() { return QSettings().value("columns/comments", false).toBo
 
 void set_shows_comments(bool shown) { QSettings().setValue("columns/comments", shown); }
 
+bool shows_curvatures() { return QSettings().value("columns/curvatures", false).toBool(); }
+
+void set_shows_curvatures(bool shown) { QSettings().setValue("columns/curvatures", shown); }
+
 QString folder() { return QSettings().value("folder", QDir::homePath()).toString(); }
 
 void set_folder(const QString& folder) { QSettings().setValue("folder", folder); }

@@ -37,6 +37,10 @@ void set_shows_aspheres(bool shown);
 bool shows_comments();
 void set_shows_comments(bool shown);
 
+/// The prescription's radii as curvatures.
+bool shows_curvatures();
+void set_shows_curvatures(bool shown);
+
 /// Where file dialogs open.
 QString folder();
 void set_folder(const QString& folder);
