@@ -69,6 +69,7 @@ MainWindow::MainWindow(bool remembers, MakeGlEngine make_gl)
     connect_actions();
     connect_engines();
     connect_reports();
+    connect_editing();
     resize(1720, 1000);
     arrange_panels();
     if (remembers_) {
@@ -129,6 +130,7 @@ void MainWindow::build_panels() {
         add_dock(first_order_, "first_order", "First order", Qt::RightDockWidgetArea);
     stop_dock_ = add_dock(stop_, "stop", "Stop", Qt::RightDockWidgetArea);
     light_dock_ = add_dock(light_, "light", "Light", Qt::RightDockWidgetArea);
+    build_editing();
     report_dock_ = add_dock(report_, "import_report", "Import report", Qt::BottomDockWidgetArea);
 
     status_ = new StatusLine(document_);
@@ -163,8 +165,9 @@ void MainWindow::build_menus() {
         bar, "&Ghosts",
         {"ghosts.copy", "ghosts.clear", "-", "ghosts.all", "ghosts.above_3", "ghosts.above_2"});
     QMenu* view = actions_.add_menu(bar, "&View", {"view.fit", "view.expose", "-"});
-    for (QDockWidget* dock : {prescription_dock_, layout_dock_, ghost_dock_, first_order_dock_,
-                              stop_dock_, light_dock_, report_dock_}) {
+    for (QDockWidget* dock :
+         {prescription_dock_, layout_dock_, ghost_dock_, first_order_dock_, stop_dock_, light_dock_,
+          report_dock_, coating_dock_, configuration_dock_, glass_dock_}) {
         view->addAction(dock->toggleViewAction());
     }
     actions_.fill(*view, {"view.reset", "-", "report.all", "report.matters", "report.copy",
@@ -193,6 +196,7 @@ void MainWindow::arrange_panels() {
     tabifyDockWidget(first_order_dock_, stop_dock_);
     tabifyDockWidget(stop_dock_, light_dock_);
     first_order_dock_->raise();
+    arrange_editing();
     // First-order data take a third of the right side; the report comes when it has something
     // to say.
     report_dock_->setVisible(report_->model().rowCount() > 0);

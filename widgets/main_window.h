@@ -17,10 +17,13 @@ namespace ghostlight {
 class Autosave;
 class Banner;
 class CertificateJob;
+class CoatingPanel;
+class ConfigurationPanel;
 class FileActions;
 class FirstOrderPanel;
 class FlarePanel;
 class GhostPanel;
+class GlassPanel;
 class ImportReportPanel;
 class LayersStrip;
 class LayoutPanel;
@@ -64,6 +67,9 @@ class MainWindow : public QMainWindow {
     StopPanel& stop_panel() { return *stop_; }
     LightPanel& light_panel() { return *light_; }
     LayersStrip& layers_strip() { return *layers_; }
+    CoatingPanel& coating_panel() { return *coating_; }
+    ConfigurationPanel& configuration_panel() { return *configurations_; }
+    GlassPanel& glass_panel() { return *glasses_; }
     const std::optional<FlarePicture>& picture() const { return picture_; }
 
    Q_SIGNALS:
@@ -85,6 +91,10 @@ class MainWindow : public QMainWindow {
     void connect_engines();
     void connect_absorption();
     void connect_reports();
+    /// Coatings, configurations and glasses: main_window_editing.cpp.
+    void build_editing();
+    void arrange_editing();
+    void connect_editing();
     void offer_recovery();
     void show_scene();
     void show_picture(const FlarePicture& picture);
@@ -116,6 +126,9 @@ class MainWindow : public QMainWindow {
     StopPanel* stop_ = nullptr;
     LightPanel* light_ = nullptr;
     LayersStrip* layers_ = nullptr;
+    CoatingPanel* coating_ = nullptr;
+    ConfigurationPanel* configurations_ = nullptr;
+    GlassPanel* glasses_ = nullptr;
     StatusLine* status_ = nullptr;
     Banner* banner_ = nullptr;
     FileActions* files_ = nullptr;
@@ -126,6 +139,9 @@ class MainWindow : public QMainWindow {
     QDockWidget* first_order_dock_ = nullptr;
     QDockWidget* stop_dock_ = nullptr;
     QDockWidget* light_dock_ = nullptr;
+    QDockWidget* coating_dock_ = nullptr;
+    QDockWidget* configuration_dock_ = nullptr;
+    QDockWidget* glass_dock_ = nullptr;
 
     QTimer scene_update_;  ///< many changes, one drawing
     std::optional<FlarePicture> picture_;

@@ -25,8 +25,9 @@ namespace {
 
 /// Which cell an editor belongs to.
 constexpr const char* cell_property = "cell";
-/// What is completed, of a list that also shows something beside it.
-constexpr int word_role = Qt::UserRole;
+/// What a list of words shows beside each.
+constexpr int beside_role = Qt::UserRole;
+constexpr int beside_gap = 24;
 constexpr int mark_width = 12;
 
 /// Every glass at hand, by name, each once, with its nd, Vd and catalogue in words.
@@ -88,12 +89,31 @@ QAbstractItemModel* word_list(const std::vector<Suggestion>& words, QObject* par
     auto* list = new QStandardItemModel(static_cast<int>(words.size()), 1, parent);
     for (int row = 0; row < list->rowCount(); ++row) {
         const auto& [word, beside] = words[static_cast<std::size_t>(row)];
-        list->setData(list->index(row, 0), word, word_role);
-        list->setData(list->index(row, 0), beside.isEmpty() ? word : word + "   " + beside,
-                      Qt::DisplayRole);
+        list->setData(list->index(row, 0), word, Qt::EditRole);
+        list->setData(list->index(row, 0), beside, beside_role);
     }
     return list;
 }
+
+/// A word on the left, and dim on the right what is said beside it.
+class WordDelegate : public QStyledItemDelegate {
+   public:
+    using QStyledItemDelegate::QStyledItemDelegate;
+    void paint(QPainter* painter, const QStyleOptionViewItem& option,
+               const QModelIndex& index) const override {
+        QStyledItemDelegate::paint(painter, option, index);
+        const QRect inside = option.rect.adjusted(0, 0, -8, 0);
+        painter->setPen(current_palette().dim);
+        painter->drawText(inside, Qt::AlignRight | Qt::AlignVCenter,
+                          index.data(beside_role).toString());
+    }
+    QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+        QSize size = QStyledItemDelegate::sizeHint(option, index);
+        const QString beside = index.data(beside_role).toString();
+        size.rwidth() += beside_gap + option.fontMetrics.horizontalAdvance(beside);
+        return size;
+    }
+};
 
 /// What may be meant comes first, unasked, under a cell that must be mended.
 void offer_at_once(QLineEdit* editor) {
@@ -163,11 +183,11 @@ QWidget* PrescriptionDelegate::createEditor(QWidget* parent, const QStyleOptionV
     const std::vector<Suggestion> words = suggestions(index);
     if (!words.empty()) {
         auto* completer = new QCompleter(word_list(words, editor), editor);
-        completer->setCompletionRole(word_role);
         completer->setCaseSensitivity(Qt::CaseInsensitive);
         completer->setFilterMode(Qt::MatchContains);
         completer->setMaxVisibleItems(10);
         editor->setCompleter(completer);
+        completer->popup()->setItemDelegate(new WordDelegate(completer));
         completer->popup()->setMinimumWidth(320);
         if (index.data(PrescriptionModel::must_be_mended_role).toBool()) {
             offer_at_once(editor);
