@@ -78,15 +78,54 @@ const std::vector<std::pair<std::string, std::string>>& shortcut_names() {
     return names;
 }
 
+/// Times with each economy off over the plan's own at equal errors, medians over a lens's settings.
+std::string cost_without(const AccuracyReport& report, const std::string& method) {
+    std::vector<double> ratios;
+    for (const AccuracyPoint& point : report.points)
+        if (point.method == method && point.resolved) {
+            const double plan_ms =
+                time_for_error_ms(report.points, "planned", point.errors.relative_l1);
+            if (std::isfinite(plan_ms)) ratios.push_back(point.median_ms / plan_ms);
+        }
+    return ratios.empty() ? "–" : fmt::format("{:.2f}", median(ratios));
+}
+
+std::vector<std::string> ablations_of(const AccuracyRun& run) {
+    std::vector<std::string> methods;
+    for (const AccuracyCase& one : run.cases)
+        for (const AccuracyPoint& point : one.report.points)
+            if (point.is_ablation && std::ranges::find(methods, point.method) == methods.end())
+                methods.push_back(point.method);
+    return methods;
+}
+
 }  // namespace
 
 Table accuracy_rows(const AccuracyRun& run) {
     Table table;
-    table.columns = {
-        "lens",        "configuration",   "field_deg",       "closed_stops", "method",   "knob",
-        "setting",     "cold_ms",         "median_ms",       "p95_ms",       "repeats",  "rays",
-        "relative_l1", "energy",          "smape",           "log_stops",    "resolved", "on_front",
-        "shortcut",    "reference_error", "reference_bound", "reference_ms"};
+    table.columns = {"lens",
+                     "configuration",
+                     "field_deg",
+                     "closed_stops",
+                     "method",
+                     "knob",
+                     "setting",
+                     "cold_ms",
+                     "median_ms",
+                     "p95_ms",
+                     "repeats",
+                     "rays",
+                     "relative_l1",
+                     "energy",
+                     "smape",
+                     "log_stops",
+                     "resolved",
+                     "on_front",
+                     "shortcut",
+                     "ablation",
+                     "reference_error",
+                     "reference_bound",
+                     "reference_ms"};
     auto word = [](bool yes) { return std::string(yes ? "yes" : "no"); };
     for (const AccuracyCase& one : run.cases)
         for (const AccuracyPoint& p : one.report.points)
@@ -109,6 +148,7 @@ Table accuracy_rows(const AccuracyRun& run) {
                                   word(p.resolved),
                                   word(p.on_front),
                                   word(p.is_shortcut),
+                                  word(p.is_ablation),
                                   one.report.reference_error,
                                   one.report.reference_bound,
                                   one.report.reference_ms});
@@ -138,7 +178,7 @@ LogChart error_time_chart(const AccuracyCase& one) {
                    .ring_name = "nothing is faster and closer",
                    .hollow_name = "not resolved"};
     for (const AccuracyPoint& point : one.report.points) {
-        if (point.is_shortcut) continue;
+        if (point.is_shortcut || point.is_ablation) continue;
         auto series = std::ranges::find(chart.series, point.method, &LogSeries::name);
         if (series == chart.series.end()) {
             chart.series.push_back(
@@ -361,6 +401,28 @@ std::string accuracy_markdown(const AccuracyRun& run, const std::string& chart_f
         for (const double share : {0.2, 0.4})
             text += " | " + point_cell(one.report, "uniform, weakest culled", share, false);
         text += " | " + percent(one.report.four_reflections) + " |\n";
+    }
+    if (const auto ablations = ablations_of(run); !ablations.empty()) {
+        text +=
+            "\n## What each economy is worth\n\nThe time of a frame without it, over that of the "
+            "plan "
+            "with all of them for the same error (between its own\nsettings, linear in both "
+            "logarithms; medians over 5, 2 and 1 %, where resolved):\n\n| lens";
+        std::string rule = "\n| ---";
+        for (const std::string& method : ablations) {
+            text += " | " + method.substr(method.find(", ") + 2);
+            rule += " | ---";
+        }
+        text += " |" + rule + " |\n";
+        for (const AccuracyCase& one : run.cases) {
+            text += "| " + title_of(one);
+            for (const std::string& method : ablations)
+                text += " | " + cost_without(one.report, method);
+            text += " |\n";
+        }
+        text +=
+            "\nThe mirror symmetry of a beam has no switch: half of each beam is traced, which is "
+            "half of the rays.\n";
     }
     text += "\n## Charts\n";
     for (const AccuracyCase& one : run.cases)

@@ -69,7 +69,7 @@ Table rows_of_sensitivities(const GhostTable& ghosts, const GhostState& state) {
     std::vector<std::vector<double>> slopes(ghosts.ghosts.size());
     parallel_for(slopes.size(), 0, {}, [&](std::size_t g) {
         if (ghosts.ghosts[g].flux_mm2 > 0.0)
-            slopes[g] = flux_sensitivities(lens, wavelength_nm, state.light, ghosts.ghosts[g].path,
+            slopes[g] = flux_sensitivities(lens, state.spectrum, state.light, ghosts.ghosts[g].path,
                                            parameters);
     });
     Table table;

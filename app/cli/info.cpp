@@ -7,6 +7,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/lens_data.h"
 #include "app/cli/report.h"
+#include "core/io/import_report.h"
 #include "core/io/lens_quantities.h"
 
 namespace ghostlight::cli {
@@ -40,7 +41,11 @@ std::vector<Position> positions_of(const InfoOptions& options, double wavelength
 std::string lens_lines(const LoadedLens& loaded, double wavelength_nm) {
     std::string text = lens_heading(loaded) + "\n";
     const auto line = [&](std::string_view label, std::string_view value) {
-        if (!value.empty()) text += fmt::format("  {:<28}{}\n", label, value);
+        std::string_view head = label;
+        for (const std::string_view row : split(value, '\n')) {
+            if (!row.empty()) text += fmt::format("  {:<28}{}\n", head, row);
+            head = {};
+        }
     };
     const Prescription& lens = loaded.lens;
     line("source", lens.source);
@@ -51,12 +56,25 @@ std::string lens_lines(const LoadedLens& loaded, double wavelength_nm) {
          fmt::format("{}, the stop is row {}", lens.surfaces.size(), lens.stop.surface + 1));
     line("sensor_mm", fmt::format("{:.6g} x {:.6g}", lens.sensor.width_mm, lens.sensor.height_mm));
     line("wavelength_nm", fmt::format("{}", wavelength_nm));
-    return text + "\n";
+    return text;
+}
+
+/// What was found when the file was read.
+std::string report_lines(const Notes& notes) {
+    return notes.empty() ? std::string() : "\nimport report\n" + notes_text(notes);
+}
+
+/// What can be shown of a lens that cannot be traced; then the error.
+[[noreturn]] void show_unfinished(const LoadedLens& loaded, double wavelength_nm,
+                                  const OutputOptions& output) {
+    write_text(lens_lines(loaded, wavelength_nm) + report_lines(loaded.notes), output);
+    refuse_unfinished(loaded);
+    throw Error("the lens cannot be traced");
 }
 
 /// One line a quantity, one column a position of the lens.
 std::string readable(const std::vector<Position>& positions, double wavelength_nm) {
-    std::string text = lens_lines(positions.front().loaded, wavelength_nm);
+    std::string text = lens_lines(positions.front().loaded, wavelength_nm) + "\n";
     std::vector<std::vector<LensQuantity>> values;
     for (const Position& each : positions) values.push_back(lens_quantities(each.system));
     constexpr std::size_t width = 14;
@@ -73,10 +91,7 @@ std::string readable(const std::vector<Position>& positions, double wavelength_n
             text += fmt::format("{:>{}}", readable_text(of_one[k].value), width);
         text += fmt::format("{}{}\n", quantity.meaning.empty() ? "" : "   ", quantity.meaning);
     }
-    for (const Note& note : positions.front().loaded.notes)
-        text += fmt::format("\n  {}: {}{}{}\n", severity_name(note.severity), note.where,
-                            note.where.empty() ? "" : ": ", note.text);
-    return text;
+    return text + report_lines(positions.front().loaded.notes);
 }
 
 Table one_row(const OpticalSystem& system) {
@@ -109,8 +124,18 @@ void run(const InfoOptions& options) {
     const double wavelength_nm = wavelength_value("--wavelength", options.wavelength);
     const auto points = static_cast<int>(
         integer_value("--points", options.points, "a whole number from 2 to 1000", 2, 1000));
-    const std::vector<Position> positions = positions_of(options, wavelength_nm);
     const bool plain = !options.rays && !options.curves;
+    if (plain && !options.output.csv && !options.output.json) {
+        LensOptions as_it_is;
+        as_it_is.lens = options.lens.lens;
+        as_it_is.takes_unfinished = true;
+        const LoadedLens loaded = load_lens(as_it_is);
+        if (std::ranges::any_of(loaded.notes, [](const Note& note) {
+                return note.severity == Note::Severity::error;
+            }))
+            show_unfinished(loaded, wavelength_nm, options.output);
+    }
+    const std::vector<Position> positions = positions_of(options, wavelength_nm);
     if (plain && !options.output.csv && !options.output.json) {
         write_text(readable(positions, wavelength_nm), options.output);
         return;

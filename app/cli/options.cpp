@@ -288,11 +288,22 @@ CLI::Option* add_lens(CLI::App& command, LensOptions& options, const std::string
     return lens;
 }
 
+void refuse_unfinished(const LoadedLens& loaded) {
+    for (const Note& note : loaded.notes)
+        if (note.severity == Note::Severity::error)
+            throw Error({.problem = note.text + (note.proposal.empty() ? "" : ": ") + note.proposal,
+                         .file = loaded.file.string(),
+                         .where = note.where,
+                         .found = {},
+                         .expected = {}});
+}
+
 LoadedLens load_lens(const LensOptions& options) {
     LoadedLens loaded;
     loaded.file = find_lens(options.lens);
     auto [lens, notes] = read_lens(loaded.file);
     loaded.notes = std::move(notes);
+    if (!options.takes_unfinished) refuse_unfinished(loaded);
     for (const Configuration& configuration : lens.configurations)
         loaded.configurations.push_back(configuration.name);
     loaded.configuration = options.config;

@@ -70,6 +70,7 @@ struct LensOptions {
     std::string lens, config, f_number, stop_semi_diameter, sensor, sensor_reflectance, coating,
         internal_transmittance;
     StopOptions stop;
+    bool takes_unfinished = false;  ///< also lenses that cannot be traced before they are mended
 };
 /// `name` is "LENS", or an option's.
 CLI::Option* add_lens(CLI::App& command, LensOptions& options, const std::string& name = "LENS");
@@ -92,6 +93,9 @@ struct LoadedLens {
     Notes notes;
 };
 LoadedLens load_lens(const LensOptions& options);
+/// Throws Error with what has to be mended before the lens can be traced, such as a glass that nobody
+/// knows. load_lens does so unless `takes_unfinished`.
+void refuse_unfinished(const LoadedLens& loaded);
 
 /// What `--config` names: one configuration, a comma list of them, or "all"; one empty text for the
 /// lens as listed. Names are checked when the lens is loaded.

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 
 #include "core/elapsed.h"
-#include "core/flare/paraxial_flare.h"
-#include "core/flare/planned_flare.h"
+#include "core/flare/accuracy_trials.h"
 #include "core/flare/reference_image.h"
 #include "core/ghosts/ghost_table.h"
 
@@ -15,111 +13,7 @@ namespace ghostlight {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr int usual_grid = 64;  ///< of `uniform`, where something else is varied
-constexpr double usual_tolerance = 0.01;
 constexpr double reference_share = 0.5;  ///< of the progress
-
-/// A frame to be timed: what is kept between frames is made by `prepare`.
-struct Trial {
-    std::string method, knob;
-    double setting = none;
-    std::function<std::function<std::optional<FlareImage>()>()> prepare;
-};
-
-class Trials {
-   public:
-    Trials(const Prescription& lens, const AccuracyRequest& request, std::stop_token stop)
-        : lens_(lens), request_(request), stop_(std::move(stop)) {}
-
-    /// Cheapest first in each method, so that a budget cuts off the dearest.
-    std::vector<std::vector<Trial>> all() const {
-        std::vector<std::vector<Trial>> families;
-        const bool gray = std::holds_alternative<Monochromatic>(request_.spectrum);
-        families.push_back({planned("paraxial", "", none, FlareScene::usual_samples,
-                                    [](FlareRequest& r) { r.method = FlareMethod::paraxial; })});
-        auto& by_tolerance = families.emplace_back();
-        for (const double tolerance : {0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001})
-            by_tolerance.push_back(planned("planned", "tolerance", tolerance,
-                                           FlareScene::usual_samples,
-                                           [=](FlareRequest& r) { r.tolerance = tolerance; }));
-        auto& by_quick = families.emplace_back();
-        for (const double tolerance : {0.1, 0.05, 0.02})
-            by_quick.push_back(planned("planned, quick search", "tolerance", tolerance,
-                                       FlareScene::usual_samples, [=](FlareRequest& r) {
-                                           r.tolerance = tolerance;
-                                           r.search = ProbeSearch::quick;
-                                       }));
-        auto& by_grid = families.emplace_back();
-        for (const int grid : {4, 8, 16, 32, 64, 128, 256, 512})
-            by_grid.push_back(
-                uniform("uniform", "grid", grid, [=](FlareRequest& r) { r.grid = grid; }));
-        auto& by_share = families.emplace_back();
-        for (const double share : {0.4, 0.2})
-            by_share.push_back(
-                uniform("uniform, weakest culled", "share", share, [=](FlareRequest& r) {
-                    r.culled = share;
-                    r.grid = usual_grid;
-                }));
-        families.push_back({planned("planned, hullin-2011 coating", "tolerance", usual_tolerance,
-                                    FlareScene::usual_samples, [](FlareRequest& r) {
-                                        r.tolerance = usual_tolerance;
-                                        r.coating_model = CoatingModel::hullin_2011;
-                                    })});
-        if (!gray) {
-            auto &merged = families.emplace_back(), &separate = families.emplace_back();
-            for (const int count : {3, 5, 7, 15, 31, 61}) {
-                merged.push_back(planned("planned, wavelengths", "wavelengths", count, count,
-                                         [](FlareRequest& r) { r.tolerance = usual_tolerance; }));
-                separate.push_back(
-                    uniform("uniform, wavelengths", "wavelengths", count, [=](FlareRequest& r) {
-                        r.spectral_samples = count;
-                        r.grid = usual_grid;
-                    }));
-            }
-        }
-        return families;
-    }
-
-   private:
-    const Prescription& lens_;
-    const AccuracyRequest& request_;
-    std::stop_token stop_;
-
-    FlareRequest base() const {
-        FlareRequest request;
-        request.light = request_.light;
-        request.spectrum = request_.spectrum;
-        request.width_px = request_.width_px;
-        request.threads = request_.threads;
-        return request;
-    }
-
-    template <class Set>
-    Trial planned(const char* method, const char* knob, double setting, int samples,
-                  Set set) const {
-        FlareRequest request = base();
-        set(request);
-        return {method, knob, setting, [this, request, samples] {
-                    auto scene = std::make_shared<FlareScene>(flare_scene(
-                        lens_, request.spectrum, samples, request.threads, request.coating_model));
-                    return std::function([this, request, scene] {
-                        return request.method == FlareMethod::paraxial
-                                   ? render_paraxial(*scene, request, stop_)
-                                   : render_planned(*scene, request, stop_);
-                    });
-                }};
-    }
-    template <class Set>
-    Trial uniform(const char* method, const char* knob, double setting, Set set) const {
-        FlareRequest request = base();
-        request.method = FlareMethod::uniform;
-        set(request);
-        return {method, knob, setting, [this, request] {
-                    return std::function(
-                        [this, request] { return render_uniform(lens_, request, stop_); });
-                }};
-    }
-};
 
 double percentile(std::vector<double> values, double share) {
     std::ranges::sort(values);
@@ -128,12 +22,13 @@ double percentile(std::vector<double> values, double share) {
 }
 
 /// One cold frame, then as many as fit into `allowed_ms`, three at least if the first took less.
-std::optional<AccuracyPoint> timed(const Trial& trial, const std::vector<float>& truth,
+std::optional<AccuracyPoint> timed(const AccuracyTrial& trial, const std::vector<float>& truth,
                                    int most_repeats, double allowed_ms) {
     AccuracyPoint point;
     point.method = trial.method;
     point.knob = trial.knob;
     point.setting = trial.setting;
+    point.is_ablation = trial.is_ablation;
     const auto began = Clock::now();
     const auto frame = trial.prepare();
     auto image = frame();
@@ -214,8 +109,8 @@ bool compare_ghosts(const Prescription& lens, const AccuracyRequest& request,
         for (const ReferenceGhost& ghost : truth->ghosts) {
             FlareRequest one = base;
             one.method = method;
-            one.tolerance = usual_tolerance;
-            one.grid = usual_grid;
+            one.tolerance = usual_trial_tolerance;
+            one.grid = usual_trial_grid;
             one.highlighted = {ghost.path};
             const auto image = render_flare(lens, one, stop);
             if (!image) return false;
@@ -256,8 +151,30 @@ bool measure_four_reflections(const Prescription& lens, const AccuracyRequest& r
 
 }  // namespace
 
+double time_for_error_ms(const std::vector<AccuracyPoint>& points, const std::string& method,
+                         double relative_l1) {
+    std::vector<std::pair<double, double>> curve;  // logarithms of error and time
+    for (const AccuracyPoint& p : points)
+        if (p.method == method && p.errors.relative_l1 > 0.0)
+            curve.emplace_back(std::log(p.errors.relative_l1), std::log(p.median_ms));
+    std::ranges::sort(curve);
+    // Two settings that come to the same error say nothing of a slope.
+    const auto same = std::ranges::unique(
+        curve, [](const auto& a, const auto& b) { return b.first - a.first < 1e-6; });
+    curve.erase(same.begin(), same.end());
+    const double at = std::log(relative_l1);
+    if (curve.size() < 2 || at < curve.front().first || at > curve.back().first) return none;
+    std::size_t k = 1;
+    while (k + 1 < curve.size() && curve[k].first < at) ++k;
+    const auto [x0, y0] = curve[k - 1];
+    const auto [x1, y1] = curve[k];
+    return std::exp(std::lerp(y0, y1, (at - x0) / (x1 - x0)));
+}
+
 void mark_front(std::vector<AccuracyPoint>& points) {
-    auto counts = [](const AccuracyPoint& p) { return p.resolved && !p.is_shortcut; };
+    auto counts = [](const AccuracyPoint& p) {
+        return p.resolved && !p.is_shortcut && !p.is_ablation;
+    };
     for (AccuracyPoint& point : points)
         point.on_front =
             counts(point) && std::ranges::none_of(points, [&](const AccuracyPoint& other) {
@@ -289,15 +206,14 @@ std::optional<AccuracyReport> measure_accuracy(
     report.reference_converged = truth->converged;
     report.four_reflections = none;
 
-    const Trials trials(lens, request, stop);
-    const auto families = trials.all();
+    const auto families = accuracy_trials(lens, request, stop);
     std::size_t count = 0, done = 0;
     for (const auto& family : families) count += family.size();
     const double allowed_ms = 1e3 * request.budget_s / static_cast<double>(count);
     for (const auto& family : families) {
         double left_ms = allowed_ms * static_cast<double>(family.size());
         double last_ms = 0.0;
-        for (const Trial& trial : family) {
+        for (const AccuracyTrial& trial : family) {
             say(reference_share + 0.4 * static_cast<double>(done++) / static_cast<double>(count),
                 trial.method);
             // A finer setting takes longer than the one before.

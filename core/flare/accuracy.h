@@ -21,6 +21,7 @@ struct AccuracyRequest {
     double budget_s = 60.0;  ///< for the timed frames; what would go beyond it is left out
     int most_repeats = 15;   ///< timed frames of a setting, after one that is cold
     bool shortcuts = true;   ///< measure what each simplification of the physics costs
+    bool ablations = true;   ///< measure the planned method without each of its economies
     std::size_t ghosts = 5;  ///< strongest ghosts whose light, place and size are compared
     unsigned threads = 0;    ///< 0 = all cores
 };
@@ -41,6 +42,8 @@ struct AccuracyPoint {
     bool on_front = false;
     /// A simplification of the physics, drawn by the reference: its time means nothing.
     bool is_shortcut = false;
+    /// The planned method without one of its economies.
+    bool is_ablation = false;
 };
 
 /// One ghost by one method against the reference.
@@ -78,8 +81,13 @@ std::optional<AccuracyReport> measure_accuracy(
     const Prescription& lens, const AccuracyRequest& request, std::stop_token stop = {},
     const std::function<void(double, const std::string&)>& progress = {});
 
-/// Marks the points that nothing is both faster and closer than, among those that are resolved and
-/// no shortcuts.
+/// What a frame of a method takes for an error, by its settings that were timed, ms: linear between
+/// them in both logarithms. NaN beyond the outer ones.
+double time_for_error_ms(const std::vector<AccuracyPoint>& points, const std::string& method,
+                         double relative_l1);
+
+/// Marks the points that nothing is both faster and closer than, among those that are resolved
+/// neither shortcuts nor ablations.
 void mark_front(std::vector<AccuracyPoint>& points);
 
 }  // namespace ghostlight

@@ -24,6 +24,16 @@ enum class FlareMethod {
     reference,  ///< refined until two samplings agree (reference_image.h)
 };
 
+/// What the planned method saves. Each is there to be switched off, to see what it is worth.
+struct PlanEconomies {
+    bool smaller_sizes = true;  ///< broad ghosts are drawn at a half to a sixteenth of the size
+    bool leaving_out = true;    ///< the weakest are not drawn, by their bounds
+    bool probed_light = true;   ///< light is interpolated between few rays where it is smooth
+    bool split_edges = true;    ///< cells beside failing rays get grids of their own
+    bool merged_colors = true;  ///< wavelengths that land together are drawn as one
+    bool operator==(const PlanEconomies&) const = default;
+};
+
 /// What to draw, and how finely. The direct image is not part of the ghost layer.
 struct FlareRequest {
     LightDirection light;
@@ -39,6 +49,7 @@ struct FlareRequest {
     /// light that is being dragged, picture by picture.
     std::shared_ptr<const FlarePlan> nearby;
     int turn = 0;
+    PlanEconomies economies;
     int width_px = 1280;  ///< the height follows from the sensor's shape
     CoatingModel coating_model = CoatingModel::exact;  ///< planned and paraxial
     double bend_px = 0.2;      ///< each ghost's grid is as fine as keeps its map bilinear to this

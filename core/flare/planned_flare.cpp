@@ -24,7 +24,7 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
     const std::vector<GhostPath>& ghosts = request.only.empty() ? scene.ghosts : request.only;
     image.ghosts = ghosts.size();
 
-    const GhostPlanner planner(scene, request.light, frame, request.search);
+    const GhostPlanner planner(scene, request.light, frame, request.search, request.economies);
     auto found = probe_all(scene, planner, request, stop);
     if (!found) return std::nullopt;
     std::vector<ProbedGhost>& probed = *found;

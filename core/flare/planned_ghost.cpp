@@ -182,8 +182,9 @@ GhostPlanner::Fineness GhostPlanner::choose(const ProbedGhost& ghost) const {
     const double flux = std::max(planned.flux_mm2, 1e-300);
     // A ghost of full size leaves its share for blurring to the others.
     const bool full_size =
+        !economies_.smaller_sizes ||
         saturated(blur_px(1) * first.contrast_mm2 + blur_px2(1) * first.slopes_mm2, flux) >
-        level_share * planned.allowance_mm2;
+            level_share * planned.allowance_mm2;
     const double spread =
         full_size ? planned.allowance_mm2 / (1.0 - level_share) : planned.allowance_mm2;
     auto allowed = [&](double share) { return unsaturated(share * spread, flux); };
@@ -198,10 +199,12 @@ GhostPlanner::Fineness GhostPlanner::choose(const ProbedGhost& ghost) const {
         static_cast<int>(std::ceil(
             std::sqrt(std::min(first.merging_mm2 / std::max(allowed(band_share), 1e-300), 1e6)))),
         1, most_bands);
+    if (!economies_.merged_colors)
+        chosen.bands = std::min(most_bands, static_cast<int>(scene_.samples.size()));
     // Weights come from the probe where they are smooth, else they are traced on the grid itself;
     // where rays begin to fail or reflect totally, on a grid for each cell.
     const double weight_allowed = weight_share * spread;
-    chosen.rough = first.weight_mm2 > weight_allowed;
+    chosen.rough = first.weight_mm2 > weight_allowed || !economies_.probed_light;
     if (chosen.rough)
         chosen.cells = std::max(
             chosen.cells,
@@ -214,7 +217,7 @@ GhostPlanner::Fineness GhostPlanner::choose(const ProbedGhost& ghost) const {
     // The cells along the edge grow fewer as they shrink, and a root's error with their size.
     const double shrunk = static_cast<double>(first.cells) / chosen.cells;
     const double singular_mm2 = first.singular_mm2 * shrunk * std::sqrt(shrunk);
-    chosen.split = singular_mm2 > singular_share * spread;
+    chosen.split = economies_.split_edges && singular_mm2 > singular_share * spread;
     chosen.error_mm2 =
         saturated(fallen(first.grid_mm2, first.cells, chosen.cells), flux) +
         saturated(fallen(first.merging_mm2, 1, chosen.bands), flux) +
@@ -233,7 +236,8 @@ void GhostPlanner::choose_level(const Fineness& chosen, double contrast_mm2, dou
         return saturated(blur_px(level) * contrast_mm2 + blur_px2(level) * slopes_mm2, flux);
     };
     planned.level = 0;
-    while (planned.level + 1 < picture_levels && level_error(planned.level + 1) <= allowed)
+    while (economies_.smaller_sizes && planned.level + 1 < picture_levels &&
+           level_error(planned.level + 1) <= allowed)
         ++planned.level;
     planned.error_mm2 = chosen.error_mm2 + level_error(planned.level);
 }

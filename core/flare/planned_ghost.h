@@ -4,6 +4,7 @@
 
 #include "core/flare/color_mesh.h"
 #include "core/flare/flare_drawing.h"
+#include "core/flare/flare_image.h"
 #include "core/flare/flare_plan.h"
 #include "core/flare/flare_scene.h"
 #include "core/flare/ghost_weights.h"
@@ -43,7 +44,7 @@ class GhostPlanner {
    public:
     /// All must outlive this.
     GhostPlanner(const FlareScene& scene, const LightDirection& light, const PixelFrame& frame,
-                 ProbeSearch search = ProbeSearch::careful);
+                 ProbeSearch search = ProbeSearch::careful, PlanEconomies economies = {});
 
     /// Finds where it enters, and a bound of its light. With a plan for a light nearby (or a lens
     /// slightly other), what that found is looked at first.
@@ -79,6 +80,7 @@ class GhostPlanner {
 
     const FlareScene& scene_;
     ProbeSearch search_;
+    PlanEconomies economies_;
     NodePlacement placement_;
     BeamFrame beam_;  ///< the field in the y–z plane
     PupilBox entrance_;

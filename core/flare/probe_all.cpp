@@ -101,7 +101,8 @@ std::optional<std::vector<ProbedGhost>> probe_all(const FlareScene& scene,
     for (std::size_t k = 0; k < strong; ++k)
         if (ghosts[order[k]].planned.fate == GhostFate::drawn)
             light_mm2 += ghosts[order[k]].planned.flux_mm2;
-    double budget_mm2 = left_out_share * request.tolerance * light_mm2;
+    double budget_mm2 =
+        request.economies.leaving_out ? left_out_share * request.tolerance * light_mm2 : 0.0;
     std::size_t end = order.size();
     // What is asked for by name, or by the share of each, is not left out.
     while (request.only.empty() && end > strong && budget_mm2 > 0.0) {

@@ -28,9 +28,10 @@ constexpr double merging_factor = 0.02;
 }  // namespace
 
 GhostPlanner::GhostPlanner(const FlareScene& scene, const LightDirection& light,
-                           const PixelFrame& frame, ProbeSearch search)
+                           const PixelFrame& frame, ProbeSearch search, PlanEconomies economies)
     : scene_(scene),
       search_(search),
+      economies_(economies),
       placement_(scene.system(), light, frame),
       beam_(beam_frame({light.field_deg, 90.0})),
       entrance_(entrance_box(scene.system(), beam_)) {}

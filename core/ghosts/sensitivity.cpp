@@ -20,6 +20,9 @@ using Jet = ceres::Jet<double, parameters_at_once>;
 /// of an index at λ0 the error is its square.
 constexpr double relative_step = 1e-4;
 
+/// Wavelengths of an integral over a continuous light: films of a few layers are smooth on 300/16 nm.
+constexpr int spectral_nodes = 17;
+
 double nominal_thickness_nm(const QuarterWave& film, const Medium& before, const Medium& after) {
     QuarterWave nominal = film;
     nominal.thickness_factor = 1.0;
@@ -123,6 +126,35 @@ Jet weight_of(const TracePath<Jet>& path, const BeamFrame& frame, double u_mm, d
     return weight;
 }
 
+/// Of one wavelength: the flux and its derivatives, not yet over the flux.
+struct FluxSlopes {
+    double flux_mm2 = 0.0;
+    std::vector<double> slopes;
+};
+
+FluxSlopes flux_slopes(const Prescription& lens, double wavelength_nm, const BeamFrame& frame,
+                       const GhostPath& ghost, const std::vector<CoatingParameter>& parameters) {
+    const OpticalSystem system = compile(lens, wavelength_nm);
+    const PathQuadrature quadrature(system, ghost, frame);
+    const std::vector<BeamPart> parts = quadrature.parts(quadrature.start());
+    FluxSlopes sum{0.0, std::vector<double>(parameters.size(), 0.0)};
+    for (std::size_t first = 0; first < parameters.size(); first += parameters_at_once) {
+        TracePath<Jet> path = trace_path<Jet>(system, ghost);
+        const std::size_t end = std::min(parameters.size(), first + parameters_at_once);
+        for (std::size_t k = first; k < end; ++k)
+            seed(path, lens, system, parameters[k], static_cast<int>(k - first));
+        sum.flux_mm2 = 0.0;
+        for (const BeamPart& part : parts) {
+            const Jet weight = weight_of(path, frame, part.u_mm, part.v_mm, parameters, first);
+            if (!std::isfinite(weight.a)) continue;
+            sum.flux_mm2 += part.area_mm2 * weight.a;
+            for (std::size_t k = first; k < end; ++k)
+                sum.slopes[k] += part.area_mm2 * weight.v[static_cast<int>(k - first)];
+        }
+    }
+    return sum;
+}
+
 }  // namespace
 
 std::string name(const CoatingParameter& parameter) {
@@ -172,30 +204,18 @@ std::vector<CoatingParameter> coating_parameters(const Prescription& lens, doubl
     return all;
 }
 
-std::vector<double> flux_sensitivities(const Prescription& lens, double wavelength_nm,
+std::vector<double> flux_sensitivities(const Prescription& lens, const Spectrum& spectrum,
                                        const LightDirection& light, const GhostPath& ghost,
                                        const std::vector<CoatingParameter>& parameters) {
-    const OpticalSystem system = compile(lens, wavelength_nm);
     const BeamFrame frame = beam_frame(light);
-    const PathQuadrature quadrature(system, ghost, frame);
-    const std::vector<BeamPart> parts = quadrature.parts(quadrature.start());
     std::vector<double> slopes(parameters.size(), 0.0);
-    double flux = 0.0;
-    for (std::size_t first = 0; first < parameters.size(); first += parameters_at_once) {
-        TracePath<Jet> path = trace_path<Jet>(system, ghost);
-        const std::size_t end = std::min(parameters.size(), first + parameters_at_once);
-        for (std::size_t k = first; k < end; ++k)
-            seed(path, lens, system, parameters[k], static_cast<int>(k - first));
-        flux = 0.0;
-        for (const BeamPart& part : parts) {
-            const Jet weight = weight_of(path, frame, part.u_mm, part.v_mm, parameters, first);
-            if (!std::isfinite(weight.a)) continue;
-            flux += part.area_mm2 * weight.a;
-            for (std::size_t k = first; k < end; ++k)
-                slopes[k] += part.area_mm2 * weight.v[static_cast<int>(k - first)];
-        }
+    double flux_mm2 = 0.0;
+    for (const SpectralSample& sample : nested_samples(spectrum, spectral_nodes)) {
+        const FluxSlopes at = flux_slopes(lens, sample.wavelength_nm, frame, ghost, parameters);
+        flux_mm2 += sample.weight * at.flux_mm2;
+        for (std::size_t k = 0; k < slopes.size(); ++k) slopes[k] += sample.weight * at.slopes[k];
     }
-    for (double& slope : slopes) slope = flux > 0.0 ? slope / flux : 0.0;
+    for (double& slope : slopes) slope = flux_mm2 > 0.0 ? slope / flux_mm2 : 0.0;
     return slopes;
 }
 

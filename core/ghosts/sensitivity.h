@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/flare/spectrum.h"
 #include "core/ghosts/ghost_path.h"
 #include "core/optics/prescription.h"
 #include "core/optics/trace.h"
@@ -31,10 +32,11 @@ std::string unit(const CoatingParameter& parameter);
 /// coating, and R everywhere.
 std::vector<CoatingParameter> coating_parameters(const Prescription& lens, double wavelength_nm);
 
-/// ∂ ln(flux) / ∂ parameter of one path, per unit of each parameter: the derivative of the weights
-/// (automatic, exact films, polarisation carried) over the beam that passes, which no coating
-/// moves. Zeros where no light passes.
-std::vector<double> flux_sensitivities(const Prescription& lens, double wavelength_nm,
+/// ∂ ln(flux) / ∂ parameter of one path in a light, per unit of each parameter: the derivative of
+/// the weights (automatic, exact films, polarisation carried) over the beam that passes, which no
+/// coating moves; of a continuous light the integral over 17 wavelengths. A reflectance is raised
+/// at all of them. Zeros where no light passes.
+std::vector<double> flux_sensitivities(const Prescription& lens, const Spectrum& spectrum,
                                        const LightDirection& light, const GhostPath& path,
                                        const std::vector<CoatingParameter>& parameters);
 

@@ -296,14 +296,14 @@ ImportedLens seq_lens(SeqContents contents) { return SeqLens(std::move(contents)
 
 bool is_seq(std::string_view text) {
     bool object = false, surface = false, image = false;
-    for (const SeqCommand& command : seq_commands(text.substr(0, 65536))) {
+    for_each_seq_command(text.substr(0, 65536), [&](const SeqCommand& command) {
         const std::size_t words = command.words.size();
         object = object || ((command.name == "SO" || command.name == "RDM" ||
                              command.name == "LEN" || command.name == "DIM"));
         surface = surface || ((command.name == "S" || command.name == "S1") && words >= 1 &&
                               parse_number(command.words[0].text));
         image = image || command.name == "SI";
-    }
+    });
     return surface && (object || image);
 }
 

@@ -10,12 +10,22 @@ namespace {
 /// Collects the words of the current command, from line to line.
 class Commands {
    public:
-    std::vector<SeqCommand> take() {
-        end();
-        return std::move(commands_);
+    explicit Commands(const std::function<void(const SeqCommand&)>& visit) : visit_(visit) {}
+
+    /// The command that the text ends in.
+    void end() {
+        if (current_.empty()) return;
+        SeqCommand command;
+        command.where = fmt::format("line {}", number_);
+        command.name = current_.front().quoted ? "'" + current_.front().text
+                                               : upper_case(current_.front().text);
+        command.words.assign(std::make_move_iterator(current_.begin() + 1),
+                             std::make_move_iterator(current_.end()));
+        if (current_.front().quoted) command.words.insert(command.words.begin(), current_.front());
+        current_.clear();
+        visit_(command);
     }
 
-    /// Adds a line; false when the command ends with it.
     void add(const TextLine& line) {
         if (current_.empty()) number_ = line.number;
         std::string_view text = line.text;
@@ -78,30 +88,18 @@ class Commands {
         return close + 1;
     }
 
-    void end() {
-        if (current_.empty()) return;
-        SeqCommand command;
-        command.where = fmt::format("line {}", number_);
-        command.name = current_.front().quoted ? "'" + current_.front().text
-                                               : upper_case(current_.front().text);
-        command.words.assign(std::make_move_iterator(current_.begin() + 1),
-                             std::make_move_iterator(current_.end()));
-        if (current_.front().quoted) command.words.insert(command.words.begin(), current_.front());
-        current_.clear();
-        commands_.push_back(std::move(command));
-    }
-
-    std::vector<SeqCommand> commands_;
+    const std::function<void(const SeqCommand&)>& visit_;
     std::vector<SeqWord> current_;
     std::size_t number_ = 0;
 };
 
 }  // namespace
 
-std::vector<SeqCommand> seq_commands(std::string_view text) {
-    Commands commands;
+void for_each_seq_command(std::string_view text,
+                          const std::function<void(const SeqCommand&)>& visit) {
+    Commands commands(visit);
     for (const TextLine& line : text_lines(text)) commands.add(line);
-    return commands.take();
+    commands.end();
 }
 
 }  // namespace ghostlight

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,8 @@ struct SeqCommand {
     std::string where;  ///< "line 12"
 };
 
-std::vector<SeqCommand> seq_commands(std::string_view text);
+/// One after the other: a file of megabytes is never held as words.
+void for_each_seq_command(std::string_view text,
+                          const std::function<void(const SeqCommand&)>& visit);
 
 }  // namespace ghostlight

@@ -60,14 +60,14 @@ constexpr double far_away_mm = 1e8;
 
 class SeqReader {
    public:
-    explicit SeqReader(const FormatSource& source) : commands_(seq_commands(source.text)) {
+    explicit SeqReader(const FormatSource& source) : text_(source.text) {
         read_.file = source.file.string();
     }
 
     SeqContents run() {
         read_private_glasses();
         bool in_private = false;
-        for (const SeqCommand& command : commands_) {
+        for_each_seq_command(text_, [&](const SeqCommand& command) {
             where_ = command.where;
             if (command.name == "PRV") {
                 in_private = true;
@@ -76,7 +76,7 @@ class SeqReader {
             } else {
                 run(command);
             }
-        }
+        });
         return std::move(read_);
     }
 
@@ -86,14 +86,14 @@ class SeqReader {
 
     void read_private_glasses() {
         bool inside = false;
-        for (const SeqCommand& command : commands_) {
+        for_each_seq_command(text_, [&](const SeqCommand& command) {
             if (command.name == "PRV")
                 inside = true;
             else if (command.name == "END")
                 inside = false;
             else if (inside)
                 read_.private_glasses.add(command, notes());
-        }
+        });
     }
 
     std::vector<double> numbers(const SeqCommand& command, std::size_t from) const {
@@ -446,7 +446,7 @@ class SeqReader {
     }
 
     std::string where_;
-    std::vector<SeqCommand> commands_;
+    std::string_view text_;
     std::size_t current_ = 0;
     SeqContents read_;
 };

@@ -30,8 +30,10 @@ TEST_F(CommandLineAccuracy, WritesTidyTablesChartsAndPages) {
     }
     EXPECT_EQ(closings.size(), 2U);
     EXPECT_GE(planned, 4);
-    for (const char* method : {"paraxial", "uniform", "averaged polarisation", "reflections only",
-                               "single precision", "planned, hullin-2011 coating"})
+    for (const char* method :
+         {"paraxial", "uniform", "averaged polarisation", "reflections only", "single precision",
+          "planned, hullin-2011 coating", "planned, all at full size", "planned, nothing left out",
+          "planned, faint ghosts folded"})
         EXPECT_TRUE(methods.contains(method)) << method;
     EXPECT_GT(read_csv(folder / "out" / "ghosts.csv").rows.size(), 3U);
     const std::string page = read_file(folder / "out" / "accuracy.html");
@@ -40,7 +42,8 @@ TEST_F(CommandLineAccuracy, WritesTidyTablesChartsAndPages) {
          {"<svg", "Error against run time", "ghostlight-cli accuracy", "--closed 0,2", "</html>"})
         EXPECT_NE(page.find(words), std::string::npos) << words;
     const std::string summary = read_file(folder / "out" / "accuracy.md");
-    for (const char* words : {"# Accuracy", "## What to choose", "## Promised and achieved"})
+    for (const char* words : {"# Accuracy", "## What to choose", "## Promised and achieved",
+                              "## What each economy is worth"})
         EXPECT_NE(summary.find(words), std::string::npos) << words;
     int charts = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder / "out"))

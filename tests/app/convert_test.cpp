@@ -93,5 +93,22 @@ TEST_F(Convert, RefusesInOneLine) {
     EXPECT_FALSE(std::filesystem::exists(folder / "x.zmx")) << "nothing half written";
 }
 
+TEST(Unfinished, InfoShowsWhatThereIsAndOthersSayWhatToMend) {
+    const std::string file = sample("zmx/unknown_glass.zmx");
+    const Outcome info = cli({"info", file});
+    EXPECT_EQ(info.status, 2);
+    EXPECT_NE(info.out.find("Triplet with a glass that nobody knows"), std::string::npos);
+    EXPECT_NE(info.out.find("! line 55"), std::string::npos) << info.out;
+    for (const auto& command : {std::vector<std::string>{"info", file, "--json"},
+                                {"ghosts", file, "--field", "5"},
+                                {"render", file, "--field", "5", "-o", "never.exr"}}) {
+        const Outcome outcome = cli(command);
+        EXPECT_EQ(outcome.status, 2);
+        EXPECT_EQ(outcome.out, "");
+        for (const char* word : {"unknown_glass.zmx", "line 55", "SF2X", "similar names: SF2"})
+            EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
+    }
+}
+
 }  // namespace
 }  // namespace ghostlight::test

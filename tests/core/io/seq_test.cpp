@@ -33,9 +33,11 @@ const std::string singlet =
     "S -50 48\n CIR 6\nSI 0 0\nGO\n";
 
 TEST(SeqCommands, ContinuationCommentsQuotes) {
-    const auto commands = seq_commands(
+    std::vector<SeqCommand> commands;
+    for_each_seq_command(
         "a 1 & ! not this\n 2\nS'x y' 3; b \"two words\" c!d\ntit '\"INF\"'\nTIT Z1 "
-        "\"\"WIDE\"\"\n");
+        "\"\"WIDE\"\"\n",
+        [&](const SeqCommand& command) { commands.push_back(command); });
     ASSERT_EQ(commands.size(), 5U);
     EXPECT_EQ(commands[0].name, "A");
     ASSERT_EQ(commands[0].words.size(), 2U);
