@@ -16,14 +16,13 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <set>
 
 #include "core/error.h"
 #include "core/io/coating_library.h"
-#include "core/io/lens_file.h"
 #include "core/optics/coating_curves.h"
 #include "core/units.h"
 #include "widgets/actions.h"
+#include "widgets/coating_edits.h"
 #include "widgets/document.h"
 #include "widgets/models/cell_text.h"
 #include "widgets/number_text.h"
@@ -50,49 +49,8 @@ constexpr int points = 121;
 
 enum Column { number_column, material_column, index_column, thickness_column, k_column };
 
-/// The kinds that are chosen by themselves; the library's follow by name.
-enum Kind { none_kind, quarter_kind, ideal_kind, stack_kind, constant_kind, measured_kind, kinds };
-constexpr const char* kind_names[kinds] = {"None",   "Quarter wave, MgF2", "Quarter wave, ideal",
-                                           "Layers", "Constant R",         "Measured table"};
-
-int kind_of(const Coating& coating) {
-    if (const auto* quarter = std::get_if<QuarterWave>(&coating)) {
-        return std::holds_alternative<IdealIndex>(quarter->layer) ? ideal_kind : quarter_kind;
-    }
-    return std::holds_alternative<LayerStack>(coating)            ? stack_kind
-           : std::holds_alternative<ConstantReflectance>(coating) ? constant_kind
-           : std::holds_alternative<MeasuredReflectance>(coating) ? measured_kind
-                                                                  : none_kind;
-}
-
-/// A coating as layers that can be edited, with the same film at the design wavelength.
-LayerStack as_stack(const Coating& coating, const Medium& before, const Medium& after) {
-    if (const auto* stack = std::get_if<LayerStack>(&coating)) {
-        return *stack;
-    }
-    LayerStack stack;
-    if (const auto* quarter = std::get_if<QuarterWave>(&coating)) {
-        const Film film = film_at(coating, before, after, quarter->center_nm);
-        for (const FilmLayer& layer : film.layers) {
-            const auto* medium = std::get_if<Medium>(&quarter->layer);
-            stack.layers.push_back(
-                {medium != nullptr ? *medium : Medium{{}, ConstantIndex{layer.n}},
-                 layer.thickness_nm});
-        }
-    }
-    if (stack.layers.empty()) {
-        const Medium layer = magnesium_fluoride();
-        stack.layers.push_back({layer, design_nm / (4.0 * refractive_index(layer, design_nm))});
-    }
-    return stack;
-}
-
-/// One layer's medium as the prescription's cells take it.
-Medium layer_medium(const QString& text) {
-    return std::get<LayerStack>(read_coating(text.trimmed() + ":1", bundled_glasses()))
-        .layers.front()
-        .medium;
-}
+constexpr const char* kind_names[coating_kinds] = {
+    "None", "Quarter wave, MgF2", "Quarter wave, ideal", "Layers", "Constant R", "Measured table"};
 
 QString index_text(const Medium& medium) {
     try {
@@ -131,34 +89,6 @@ std::vector<CurveChart::Curve> curves_of(const std::vector<CurvePoint>& points_o
 }
 
 }  // namespace
-
-std::vector<std::size_t> read_surfaces(const QString& text, std::size_t count) {
-    const std::string expected = "surfaces as 2-5, 8, from 1 to " + std::to_string(count);
-    std::set<std::size_t> rows;
-    for (const QString& part : text.split(QChar(','), Qt::SkipEmptyParts)) {
-        const QStringList ends = part.trimmed().split('-');
-        std::vector<std::size_t> numbers;
-        for (const QString& end : ends) {
-            bool is_number = false;
-            const auto number = end.trimmed().toULongLong(&is_number);
-            if (!is_number || number < 1 || number > count) {
-                throw Error({"not a surface", {}, {}, part.trimmed().toStdString(), expected});
-            }
-            numbers.push_back(static_cast<std::size_t>(number));
-        }
-        if (numbers.size() > 2 || numbers.front() > numbers.back()) {
-            throw Error(
-                {"not a range of surfaces", {}, {}, part.trimmed().toStdString(), expected});
-        }
-        for (std::size_t number = numbers.front(); number <= numbers.back(); ++number) {
-            rows.insert(number - 1);
-        }
-    }
-    if (rows.empty()) {
-        throw Error({"no surface is named", {}, {}, text.toStdString(), expected});
-    }
-    return {rows.begin(), rows.end()};
-}
 
 CoatingPanel::CoatingPanel(Document& document, Selection& selection, const Actions& actions,
                            QWidget* parent)
@@ -199,7 +129,7 @@ void CoatingPanel::build() {
     for (const char* name : kind_names) {
         kind_->addItem(name);
     }
-    kind_->insertSeparator(kinds);
+    kind_->insertSeparator(coating_kinds);
     try {
         for (const LibraryCoating& coating : coating_library()) {
             kind_->addItem(QString::fromStdString(coating.name));
@@ -377,38 +307,10 @@ void CoatingPanel::choose_kind(int at) {
     const Medium& after = document_.lens().surfaces[row].medium_after;
     attempt(QStringLiteral("change coating of surface %1").arg(row_ + 1), [&](Prescription& lens) {
         Coating& chosen = lens.surfaces[row].coating;
-        switch (at) {
-            case none_kind:
-                chosen = Uncoated{};
-                break;
-            case quarter_kind:
-                chosen = QuarterWave{};
-                break;
-            case ideal_kind:
-                chosen = QuarterWave{design_nm, IdealIndex{}};
-                break;
-            case stack_kind:
-                chosen = as_stack(chosen, before, after);
-                break;
-            case constant_kind:
-                if (!std::holds_alternative<ConstantReflectance>(chosen)) {
-                    const double r =
-                        reflectances(film_at(chosen, before, after, design_nm), 1.0).r();
-                    const double rounded = std::round(r * 1e4) / 1e4;
-                    chosen = ConstantReflectance{rounded, 1.0 - rounded};
-                }
-                break;
-            case measured_kind:
-                if (!std::holds_alternative<MeasuredReflectance>(chosen)) {
-                    throw Error(
-                        "a measured table comes from a file: docs/formats-catalogues.md says how");
-                }
-                break;
-            default:
-                if (const Coating* known = find_coating(kind_->itemText(at).toStdString())) {
-                    chosen = *known;
-                }
-                break;
+        if (at < coating_kinds) {
+            chosen = as_kind(chosen, static_cast<CoatingKind>(at), before, after);
+        } else if (const Coating* known = find_coating(kind_->itemText(at).toStdString())) {
+            chosen = *known;
         }
     });
     update_.start();
@@ -440,7 +342,7 @@ void CoatingPanel::change_layer(QStandardItem* item) {
             if (auto* stack = std::get_if<LayerStack>(&changed)) {
                 Layer& layer = stack->layers.at(at);
                 if (column == material_column) {
-                    layer.medium = layer_medium(text);
+                    layer.medium = read_layer_medium(text);
                 } else if (column == thickness_column) {
                     layer.thickness_nm = read_number(text, "a thickness in nm", CellUnit::nm);
                 } else {
@@ -450,9 +352,10 @@ void CoatingPanel::change_layer(QStandardItem* item) {
                 stack->name.clear();
             } else if (auto* quarter = std::get_if<QuarterWave>(&changed)) {
                 if (column == material_column) {
-                    quarter->layer = text.trimmed().compare("ideal", Qt::CaseInsensitive) == 0
-                                         ? std::variant<IdealIndex, Medium>(IdealIndex{})
-                                         : std::variant<IdealIndex, Medium>(layer_medium(text));
+                    quarter->layer =
+                        text.trimmed().compare("ideal", Qt::CaseInsensitive) == 0
+                            ? std::variant<IdealIndex, Medium>(IdealIndex{})
+                            : std::variant<IdealIndex, Medium>(read_layer_medium(text));
                 } else {
                     quarter->center_nm =
                         read_positive(text, "a centre wavelength in nm", CellUnit::nm);
@@ -503,7 +406,7 @@ void CoatingPanel::show_coating() {
     header_->set_state(QStringLiteral("surface %1 · %2 to %3")
                            .arg(QString::number(row + 1), QString::fromStdString(describe(before)),
                                 QString::fromStdString(describe(after))));
-    int at = kind_of(coating());
+    int at = static_cast<int>(kind_of(coating()));
     if (const auto* stack = std::get_if<LayerStack>(&coating())) {
         const int named =
             stack->name.empty() ? -1 : kind_->findText(QString::fromStdString(stack->name));

@@ -94,7 +94,4 @@ class CoatingPanel : public QWidget {
     bool side_is_chosen_ = false;
 };
 
-/// Surfaces named as "2-5, 8", counted from 1, as rows from 0, each once. Throws Error.
-std::vector<std::size_t> read_surfaces(const QString& text, std::size_t count);
-
 }  // namespace ghostlight
