@@ -26,7 +26,7 @@ namespace ghostlight {
 
 namespace {
 
-constexpr double dot_px = 6.0;
+constexpr double dot_px = 7.0;
 constexpr double reach_px = 8.0;
 constexpr double zoom_per_notch = 1.25;
 constexpr double degrees_per_notch = 120.0;  // in eighths of a degree, as Qt counts
@@ -80,10 +80,19 @@ void GlassMapView::fit() {
     if (glasses_ == nullptr || glasses_->empty()) {
         return;
     }
-    const auto [least_v, most_v] = std::ranges::minmax(*glasses_, {}, &MappedGlass::vd);
-    const auto [least_n, most_n] = std::ranges::minmax(*glasses_, {}, &MappedGlass::nd);
-    vd_ = {least_v.vd - 3.0, most_v.vd + 3.0};
-    nd_ = {least_n.nd - 0.03, most_n.nd + 0.03};
+    // Gases and liquids are few and far off: they are there when the map is zoomed out.
+    constexpr double least_of_glasses = 1.35;
+    vd_ = nd_ = {1e9, -1e9};
+    for (const MappedGlass& glass : *glasses_) {
+        if (glass.nd >= least_of_glasses) {
+            vd_ = {std::min(vd_.low, glass.vd - 3.0), std::max(vd_.high, glass.vd + 3.0)};
+            nd_ = {std::min(nd_.low, glass.nd - 0.03), std::max(nd_.high, glass.nd + 0.03)};
+        }
+    }
+    if (vd_.low > vd_.high) {
+        vd_ = {15.0, 100.0};
+        nd_ = {1.0, 2.0};
+    }
     refresh();
 }
 

@@ -6,6 +6,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QScrollArea>
 #include <QSignalBlocker>
 #include <QStackedWidget>
 #include <QStandardItemModel>
@@ -151,8 +152,7 @@ void CoatingPanel::build() {
         "Extinction k of n + ik; 0 for a layer that does not absorb");
     table_->setObjectName("layer_table");
     table_->setSelectionMode(QAbstractItemView::SingleSelection);
-    table_->setMinimumHeight(4 * table_row_height);
-    table_->setMaximumHeight(8 * table_row_height);
+    table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     side_->addItems({"from the front", "from behind"});
     side_->setToolTip("From where the light comes: the angle is the one in the medium there");
     side_->setAccessibleName("Side that the light comes from");
@@ -188,15 +188,23 @@ void CoatingPanel::build() {
     fed_row->addWidget(fed_label_, 1);
     column->addLayout(fed_row);
     add_row({new QLabel("Light"), side_, new QLabel("at"), wavelength_, new QLabel("nm")});
-    column->addWidget(angle_chart_, 1);
-    column->addWidget(wavelength_chart_, 1);
+    auto* charts = new QHBoxLayout;
+    charts->setSpacing(0);
+    charts->addWidget(angle_chart_, 1);
+    charts->addWidget(wavelength_chart_, 1);
+    column->addLayout(charts, 1);
     auto* copy = new QPushButton("Copy");
     auto* everywhere = new QPushButton("To all that face air");
     everywhere->setToolTip("The same coating on every surface between air and glass");
     add_row({new QLabel("Copy to"), targets_, copy, everywhere});
 
+    auto* scroll = new QScrollArea;
+    scroll->setFrameShape(QFrame::NoFrame);
+    scroll->setWidgetResizable(true);
+    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    scroll->setWidget(content);
     pages_->addWidget(empty_);
-    pages_->addWidget(content);
+    pages_->addWidget(scroll);
     auto* whole = new QVBoxLayout(this);
     whole->setContentsMargins(0, 0, 0, 0);
     whole->setSpacing(0);
@@ -460,6 +468,9 @@ void CoatingPanel::show_layers() {
     model_->horizontalHeaderItem(number_column)->setText(from_air ? "# air" : "#");
     fit_columns(*table_);
     table_->setVisible(!rows.isEmpty());
+    constexpr int most_shown = 6;
+    table_->setFixedHeight(table_->horizontalHeader()->sizeHint().height() + 4 +
+                           std::min(model_->rowCount(), most_shown) * table_row_height);
     if (kept >= 0 && kept < model_->rowCount()) {
         table_->setCurrentIndex(model_->index(kept, kept_column));
     }
@@ -518,8 +529,19 @@ void CoatingPanel::show_curves() {
                          QString::fromStdString(name(fed_[k].path, ghosts_->surface_count))});
     }
     double last_deg = steepest_deg;
+    try {
+        // Total reflection would leave nothing to see of the coating.
+        const double n_before = refractive_index(surface.before, nm);
+        const double n_after = refractive_index(surface.after, nm);
+        const double sine = from_front ? n_after / n_before : n_before / n_after;
+        if (sine < 1.0) {
+            last_deg = std::min(last_deg, std::floor(deg_from_rad(std::asin(sine))));
+        }
+    } catch (const Error&) {
+        // Said below.
+    }
     for (const CurveChart::Mark& mark : marks) {
-        last_deg = std::clamp(mark.to + 5.0, last_deg, 90.0);
+        last_deg = std::clamp(mark.to + 2.0, last_deg, 90.0);
     }
     try {
         angle_chart_->show_curves(curves_of(over_angle(surface, nm, last_deg, points)), marks,

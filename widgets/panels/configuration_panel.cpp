@@ -100,6 +100,7 @@ ConfigurationPanel::ConfigurationPanel(Document& document, QWidget* parent)
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
     table_->horizontalHeader()->setStretchLastSection(true);
+    table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     slider_->setRange(0, slider_end);
     slider_->setAccessibleName("Between two positions");
     slider_->setToolTip(

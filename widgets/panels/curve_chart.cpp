@@ -48,7 +48,7 @@ double round_step(double span, int about) {
 
 CurveChart::CurveChart(const QString& title, const QString& unit, QWidget* parent)
     : QWidget(parent), title_(title), unit_(unit) {
-    setMinimumSize(180, 130);
+    setMinimumSize(160, 120);
     setMouseTracking(true);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
 }
@@ -88,7 +88,8 @@ double CurveChart::top_percent() const {
         }
         std::ranges::sort(values);
         if (!values.empty()) {
-            largest = std::max(largest, values[values.size() * 85 / 100]);
+            const double usual = values[values.size() * 85 / 100];
+            largest = std::max(largest, std::min(values.back(), 3.0 * usual));
         }
     }
     const double step = round_step(std::max(largest, 0.1) * 1.15, 4);
@@ -137,8 +138,12 @@ void CurveChart::paintEvent(QPaintEvent*) {
         painter.drawLine(QPointF(x_of(x), area.bottom()), QPointF(x_of(x), area.bottom() + 4));
         painter.setPen(colors.dim);
         const bool is_last = x + x_step > last_ * (1.0 + 1e-9);
-        painter.drawText(QRectF(x_of(x) - 40, area.bottom() + 4, 80, line), Qt::AlignCenter,
-                         axis_number(x) + (is_last ? " " + unit_ : QString()));
+        QRectF place(x_of(x) - 40, area.bottom() + 4, 80, line);
+        const QString text = axis_number(x) + (is_last ? " " + unit_ : QString());
+        const double overhang =
+            x_of(x) + fontMetrics().horizontalAdvance(text) / 2.0 + 4.0 - width();
+        place.translate(-std::max(0.0, overhang), 0.0);
+        painter.drawText(place, Qt::AlignCenter, text);
     }
     painter.save();
     painter.setClipRect(area.adjusted(-1, -1, 1, 1));

@@ -72,6 +72,7 @@ GlassPanel::GlassPanel(Document& document, QWidget* parent)
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
     table_->horizontalHeader()->setStretchLastSection(true);
+    table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     surface_->setForegroundRole(QPalette::PlaceholderText);
 
     auto* column = new QVBoxLayout(this);
