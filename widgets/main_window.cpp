@@ -69,6 +69,7 @@ MainWindow::MainWindow(bool remembers, MakeGlEngine make_gl)
     connect_actions();
     connect_engines();
     connect_reports();
+    connect_editing();
     connect_guidance();
     resize(1720, 1000);
     arrange_panels();
@@ -131,6 +132,7 @@ void MainWindow::build_panels() {
         add_dock(first_order_, "first_order", "First order", Qt::RightDockWidgetArea);
     stop_dock_ = add_dock(stop_, "stop", "Stop", Qt::RightDockWidgetArea);
     light_dock_ = add_dock(light_, "light", "Light", Qt::RightDockWidgetArea);
+    build_editing();
     report_dock_ = add_dock(report_, "import_report", "Import report", Qt::BottomDockWidgetArea);
     understanding_ = std::make_unique<Understanding>(Understanding::Parts{
         *this, document_, selection_, actions_, *prescription_, *layout_, *flare_, *ghosts_,
@@ -159,10 +161,13 @@ void MainWindow::build_menus() {
     actions_.fill(*file, {"-", "file.save", "file.save_as", "-", "file.export_lens",
                           "file.export_ghost", "file.export_table", "file.export_exr",
                           "file.export_png", "-", "file.glass_folders", "-", "file.quit"});
-    actions_.add_menu(
-        bar, "&Edit",
-        {"edit.undo", "edit.redo", "-", "edit.insert", "edit.delete", "edit.move_up",
-         "edit.move_down", "edit.make_stop", "-", "edit.mend_glass", "edit.absorption"});
+    actions_.add_menu(bar, "&Edit", {"edit.undo",       "edit.redo",          "-",
+                                     "edit.insert",     "edit.delete",        "edit.move_up",
+                                     "edit.move_down",  "edit.make_stop",     "-",
+                                     "edit.copy_cells", "edit.paste_cells",   "edit.vary",
+                                     "edit.auto_size",  "edit.own_thickness", "-",
+                                     "edit.scale",      "edit.reverse",       "-",
+                                     "edit.mend_glass", "edit.absorption"});
     actions_.add_menu(
         bar, "&Ghosts",
         {"ghosts.filter", "ghosts.as_table", "ghosts.as_matrix", "ghosts.as_surfaces", "-",
@@ -179,13 +184,15 @@ void MainWindow::build_menus() {
     view->addSeparator();
     for (QDockWidget* dock :
          {prescription_dock_, layout_dock_, ghost_dock_, first_order_dock_, stop_dock_, light_dock_,
-          report_dock_, understanding_->check_dock(), understanding_->sweep_dock()}) {
+          report_dock_, coating_dock_, configuration_dock_, glass_dock_,
+          understanding_->check_dock(), understanding_->sweep_dock()}) {
         view->addAction(dock->toggleViewAction());
     }
-    actions_.fill(*view, {"view.next_panel", "view.previous_panel", "view.reset", "-", "report.all",
-                          "report.matters", "report.copy", "first_order.copy", "-", "view.aspheres",
-                          "view.comments", "-", "view.light_theme", "view.safe_colors",
-                          "view.larger_text", "view.smaller_text"});
+    actions_.fill(*view,
+                  {"view.next_panel", "view.previous_panel", "view.reset", "-", "report.all",
+                   "report.matters", "report.copy", "first_order.copy", "-", "view.curvatures",
+                   "view.aspheres", "view.comments", "-", "view.light_theme", "view.safe_colors",
+                   "view.larger_text", "view.smaller_text"});
     actions_.fill(*view->addMenu("&Draw Flares With"),
                   {"engine.automatic", "engine.cpu", "engine.opengl"});
     actions_.add_menu(
@@ -212,6 +219,7 @@ void MainWindow::arrange_panels() {
     tabifyDockWidget(first_order_dock_, stop_dock_);
     tabifyDockWidget(stop_dock_, light_dock_);
     first_order_dock_->raise();
+    arrange_editing();
     // First-order data take a third of the right side; the report comes when it has something
     // to say.
     report_dock_->setVisible(report_->model().rowCount() > 0);

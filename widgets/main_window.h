@@ -17,10 +17,13 @@ namespace ghostlight {
 class Autosave;
 class Banner;
 class CertificateJob;
+class CoatingPanel;
+class ConfigurationPanel;
 class FileActions;
 class FirstOrderPanel;
 class FlarePanel;
 class GhostPanel;
+class GlassPanel;
 class ImportReportPanel;
 class LayersStrip;
 class LayoutPanel;
@@ -68,6 +71,9 @@ class MainWindow : public QMainWindow {
     LightPanel& light_panel() { return *light_; }
     LayersStrip& layers_strip() { return *layers_; }
     Understanding& understanding() { return *understanding_; }
+    CoatingPanel& coating_panel() { return *coating_; }
+    ConfigurationPanel& configuration_panel() { return *configurations_; }
+    GlassPanel& glass_panel() { return *glasses_; }
     const std::optional<FlarePicture>& picture() const { return picture_; }
 
    Q_SIGNALS:
@@ -89,6 +95,10 @@ class MainWindow : public QMainWindow {
     void connect_engines();
     void connect_absorption();
     void connect_reports();
+    /// Coatings, configurations and glasses: main_window_editing.cpp.
+    void build_editing();
+    void arrange_editing();
+    void connect_editing();
     void offer_recovery();
     /// Help, commands, tour, gallery, keyboard and looks: main_window_guidance.cpp.
     void connect_guidance();
@@ -125,6 +135,9 @@ class MainWindow : public QMainWindow {
     StopPanel* stop_ = nullptr;
     LightPanel* light_ = nullptr;
     LayersStrip* layers_ = nullptr;
+    CoatingPanel* coating_ = nullptr;
+    ConfigurationPanel* configurations_ = nullptr;
+    GlassPanel* glasses_ = nullptr;
     StatusLine* status_ = nullptr;
     Banner* banner_ = nullptr;
     FileActions* files_ = nullptr;
@@ -135,6 +148,9 @@ class MainWindow : public QMainWindow {
     QDockWidget* first_order_dock_ = nullptr;
     QDockWidget* stop_dock_ = nullptr;
     QDockWidget* light_dock_ = nullptr;
+    QDockWidget* coating_dock_ = nullptr;
+    QDockWidget* configuration_dock_ = nullptr;
+    QDockWidget* glass_dock_ = nullptr;
 
     std::unique_ptr<Understanding> understanding_;
 

@@ -128,6 +128,20 @@ Prescription with_thickness(Prescription lens, const std::string& configuration,
     return lens;
 }
 
+Prescription with_own_thickness(Prescription lens, const std::string& configuration,
+                                std::size_t row, bool own) {
+    Configuration* known = find_configuration(lens, configuration);
+    if (known == nullptr) {
+        throw Error("choose a configuration first: the lens as listed has no other values");
+    }
+    if (own) {
+        known->thickness_mm.emplace(row, lens.surfaces.at(row).thickness_mm);
+    } else {
+        known->thickness_mm.erase(row);
+    }
+    return lens;
+}
+
 Prescription with_f_number(Prescription lens, const std::string& configuration, double f_number) {
     Configuration* known = find_configuration(lens, configuration);
     if (known != nullptr && known->f_number) {

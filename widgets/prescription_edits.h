@@ -28,7 +28,11 @@ bool overrides_thickness(const Prescription& lens, const std::string& configurat
 /// Writes it where it comes from: the configuration's value if it has one, else the listed one.
 Prescription with_thickness(Prescription lens, const std::string& configuration, std::size_t row,
                             double thickness_mm);
-/// The same for the f-number.
+/// The configuration has the thickness as its own from now on, or takes the listed one.
+/// Throws Error for a configuration that is not the lens's.
+Prescription with_own_thickness(Prescription lens, const std::string& configuration,
+                                std::size_t row, bool own);
+/// with_thickness() for the f-number.
 Prescription with_f_number(Prescription lens, const std::string& configuration, double f_number);
 
 }  // namespace ghostlight

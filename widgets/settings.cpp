@@ -103,6 +103,10 @@ bool is_on(const QString& action, bool otherwise) {
 
 void set_on(const QString& action, bool on) { QSettings().setValue("switches/" + action, on); }
 
+bool shows_curvatures() { return QSettings().value("columns/curvatures", false).toBool(); }
+
+void set_shows_curvatures(bool shown) { QSettings().setValue("columns/curvatures", shown); }
+
 QString folder() { return QSettings().value("folder", QDir::homePath()).toString(); }
 
 void set_folder(const QString& folder) { QSettings().setValue("folder", folder); }

@@ -58,6 +58,10 @@ void set_hidden_ghost_columns(const QStringList& names);
 bool is_on(const QString& action, bool otherwise);
 void set_on(const QString& action, bool on);
 
+/// The prescription's radii as curvatures.
+bool shows_curvatures();
+void set_shows_curvatures(bool shown);
+
 /// Where file dialogs open.
 QString folder();
 void set_folder(const QString& folder);

@@ -9,6 +9,7 @@
 #include "core/io/medium_json.h"
 #include "core/io/sensor_json.h"
 #include "core/io/stop_image_file.h"
+#include "core/io/varied_cells.h"
 
 namespace ghostlight {
 namespace {
@@ -272,8 +273,9 @@ LensFile lens_from_own_json(const JsonAt& root) {
     result.notes = findings(lens);
     for (std::size_t row = 0; row < lens.surfaces.size(); ++row)
         for (const auto& [name, text] : lens.surfaces[row].unknown)
-            result.notes.push_back({Note::Severity::info, fmt::format("surfaces[{}]", row + 1),
-                                    "a field that is not known is kept but not used: " + name});
+            if (name != vary_field)
+                result.notes.push_back({Note::Severity::info, fmt::format("surfaces[{}]", row + 1),
+                                        "a field that is not known is kept but not used: " + name});
     return result;
 }
 

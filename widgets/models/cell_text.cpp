@@ -137,16 +137,15 @@ std::optional<ConstantReflectance> read_constant(const QString& plain) {
 
 }  // namespace
 
-double read_number(const QString& text, const char* expected) {
-    const auto number = parse_number(text);
-    if (!number) {
-        refuse("not a number", text, expected);
+double read_number(const QString& text, const char* expected, CellUnit unit) {
+    if (const auto number = parse_number(text)) {
+        return *number;
     }
-    return *number;
+    return read_cell_expression(text.toStdString(), unit, expected);
 }
 
-double read_positive(const QString& text, const char* expected) {
-    const double number = read_number(text, expected);
+double read_positive(const QString& text, const char* expected, CellUnit unit) {
+    const double number = read_number(text, expected, unit);
     if (number <= 0.0) {
         refuse("must be above 0", text, expected);
     }
@@ -171,9 +170,9 @@ BaseCurve read_curve(const QString& text) {
     }
     const char* expected = "a radius in mm, or 'plane'";
     if (plain.startsWith("c=")) {
-        return Curvature{read_number(plain.mid(2), "a curvature in 1/mm")};
+        return Curvature{read_number(plain.mid(2), "a curvature in 1/mm", CellUnit::per_mm)};
     }
-    const double mm = read_number(plain, expected);
+    const double mm = read_number(plain, expected, CellUnit::mm);
     if (mm == 0.0) {
         refuse("a radius cannot be 0", text, expected);
     }
@@ -313,7 +312,7 @@ Coating read_coating(const QString& text, const GlassCatalog& catalog) {
     } else if (!layer.isEmpty()) {
         coating.layer = read_layer_medium(layer, catalog);
     }
-    coating.center_nm = read_positive(match.captured(2), "a centre wavelength in nm");
+    coating.center_nm = read_positive(match.captured(2), "a centre wavelength in nm", CellUnit::nm);
     if (match.lastCapturedIndex() >= 3) {
         coating.thickness_factor = read_positive(match.captured(3), "a thickness factor");
     }

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "core/io/cell_expression.h"
 #include "core/optics/coating.h"
 #include "core/optics/glass.h"
 #include "core/optics/prescription.h"
@@ -30,8 +31,9 @@ std::vector<double> read_aspheric(const QString& text);
 QString text_of_coating(const Coating& coating);
 Coating read_coating(const QString& text, const GlassCatalog& catalog);
 
-/// A number, or Error naming what it should have been ("a thickness in mm").
-double read_number(const QString& text, const char* expected);
-double read_positive(const QString& text, const char* expected);
+/// A number or arithmetic with units (core/io/cell_expression.h), or Error naming what it should
+/// have been ("a thickness in mm").
+double read_number(const QString& text, const char* expected, CellUnit unit = CellUnit::none);
+double read_positive(const QString& text, const char* expected, CellUnit unit = CellUnit::none);
 
 }  // namespace ghostlight

@@ -6,9 +6,9 @@
 #include <array>
 #include <utility>
 
-#include "core/io/lens_file.h"
-#include "core/units.h"
-#include "widgets/models/cell_text.h"
+#include "core/io/varied_cells.h"
+#include "core/optics/mend.h"
+#include "core/optics/reverse.h"
 #include "widgets/models/coating_color.h"
 #include "widgets/number_text.h"
 #include "widgets/palette.h"
@@ -29,50 +29,50 @@ constexpr std::array<ColumnText, PrescriptionModel::column_count> columns = {{
     {"#", "", "Surfaces count from 1, in the order in which light meets them."},
     {"Radius mm", "radius",
      "Positive when the centre of curvature lies towards the sensor.\n"
-     "Empty or 'plane' for a plane; 'c=0.01' gives a curvature in 1/mm."},
+     "Empty or 'plane' for a plane; 'c=0.01' gives a curvature in 1/mm.\n"
+     "Numbers may be worked out: =2*13.2, 0.5in, 1/3."},
     {"Thickness mm", "thickness",
      "To the next surface; the last one to the sensor.\n"
-     "In a configuration that sets it, its own value."},
-    {"nd / Vd", "glass",
+     "In a configuration that sets it, its own value.\n"
+     "Numbers may be worked out: =2*13.2, 0.5in, 1/3."},
+    {"Glass", "glass",
      "What follows the surface: a catalogue name, 'nd / Vd' or an index.\nEmpty for air."},
-    {"Semi-dia. mm", "semi-diameter", "Clear radius. Rays beyond it are clipped."},
+    {"nd / Vd", "", "Index at the d line, 587.56 nm, and Abbe number of the named glass."},
+    {"Semi-dia. mm", "semi-diameter",
+     "Clear radius. Rays beyond it are clipped.\n"
+     "A number fixes it; 'auto' lets the direct beam size it, marked A."},
     {"Conic", "conic constant", "0 sphere, −1 paraboloid, below −1 hyperboloid."},
     {"Asphere", "aspheric terms", "Even terms of the sag, A4 r⁴ + A6 r⁶ + …, in mm^(1−power)."},
     {"Coating", "coating",
      "none, MgF2 λ/4 550, 1.38 λ/4 550, ideal λ/4 550,\n"
      "or a stack from the light's side: 1.38:96.4 | 2.1:50 (nm).\n"
      "The chip is the reflected colour under the chosen light."},
-    {"Comment", "comment", ""},
+    {"Comment", "comment", "Words of your own; they change nothing."},
 }};
+
+constexpr ColumnText curvature_column = {
+    "Curvature /mm", "curvature",
+    "1/R. Positive when the centre of curvature lies towards the sensor; 0 for a plane.\n"
+    "'r=50' gives a radius in mm. Numbers may be worked out: 1/50, 1/2in."};
 
 bool is_number(int column) {
     return column != PrescriptionModel::coating && column != PrescriptionModel::comment &&
-           column != PrescriptionModel::aspheric;
-}
-
-QString true_minus(QString text) { return text.replace('-', QChar(0x2212)); }
-
-QString shown_curve(const BaseCurve& curve) {
-    if (const auto* radius = std::get_if<Radius>(&curve)) {
-        return at_least_decimals(radius->mm, 3);
-    }
-    const double curvature = curvature_per_mm(curve);
-    return curvature == 0.0 ? QStringLiteral("plane") : significant(1.0 / curvature, 7);
+           column != PrescriptionModel::aspheric && column != PrescriptionModel::medium;
 }
 
 std::string field_key(const QModelIndex& index, const std::string& configuration) {
     return std::to_string(index.row()) + '/' + std::to_string(index.column()) + '/' + configuration;
 }
 
-/// What was typed; of a size that was worked out, as many digits as mean something.
-QString shown_size(double mm) {
-    constexpr int most_digits = 7;
-    const QString typed = at_least_decimals(mm, 2);
-    return typed.size() > most_digits + 2 ? significant(mm, most_digits) : typed;
-}
-
 bool is_unknown(const Medium& medium) {
     return std::holds_alternative<UnknownGlass>(medium.dispersion);
+}
+
+/// In the history.
+QString step_name(const QModelIndex& index) {
+    return QStringLiteral("change %1 of surface %2")
+        .arg(columns[static_cast<std::size_t>(index.column())].what)
+        .arg(index.row() + 1);
 }
 
 std::size_t row_of(const QModelIndex& index) { return static_cast<std::size_t>(index.row()); }
@@ -101,18 +101,26 @@ void PrescriptionModel::follow_document() {
         return;  // the light moves, and nothing here changes
     }
     configuration_ = scene.configuration;
+    const bool other_light = scene.light().spectrum != spectrum_;
     spectrum_ = scene.light().spectrum;
     // Every row's number changes below an insertion, so that no row is just where it was, moved.
     const bool other_rows = shown_.surfaces.size() != lens.surfaces.size();
     if (other_rows) {
         beginResetModel();
     }
-    shown_ = lens;
-    chips_.clear();
+    const Prescription before = std::exchange(shown_, lens);
+    chips_.resize(shown_.surfaces.size());
     for (std::size_t row = 0; row < shown_.surfaces.size(); ++row) {
         const Surface& surface = shown_.surfaces[row];
-        chips_.push_back(coating_color(medium_before(shown_, row), surface.coating,
-                                       surface.medium_after, spectrum_));
+        // While a radius is drawn, no colour changes.
+        const bool is_as_before = !other_rows && !other_light &&
+                                  before.surfaces[row].coating == surface.coating &&
+                                  before.surfaces[row].medium_after == surface.medium_after &&
+                                  medium_before(before, row) == medium_before(shown_, row);
+        if (!is_as_before) {
+            chips_[row] = coating_color(medium_before(shown_, row), surface.coating,
+                                        surface.medium_after, spectrum_);
+        }
     }
     if (other_rows) {
         endResetModel();
@@ -121,99 +129,17 @@ void PrescriptionModel::follow_document() {
     }
 }
 
-QString PrescriptionModel::display_text(std::size_t row, int column) const {
+QString PrescriptionModel::mark(std::size_t row, int column) const {
     const Surface& surface = shown_.surfaces[row];
-    switch (column) {
-        case number:
-            return QString::number(row + 1);
-        case radius:
-            return is_stop(row) && std::holds_alternative<Plane>(surface.curve)
-                       ? QStringLiteral("stop")
-                       : shown_curve(surface.curve);
-        case thickness:
-            return at_least_decimals(thickness_mm(shown_, configuration_, row), 3);
-        case medium: {
-            const QString text = text_of_medium(surface.medium_after);
-            if (surface.medium_after.name.empty()) {
-                return true_minus(text);
-            }
-            // With a mark, too, for whoever does not see the colour.
-            return is_unknown(surface.medium_after) ? text + QStringLiteral(" ?") : text;
-        }
-        case semi_diameter:
-            return shown_size(surface.semi_diameter_mm);
-        case conic:
-            return surface.conic == 0.0 ? QString() : at_least_decimals(surface.conic, 3);
-        case aspheric:
-            return true_minus(text_of_aspheric(surface.aspheric));
-        case coating: {
-            if (!std::holds_alternative<Uncoated>(surface.coating)) {
-                return QString::fromStdString(describe(surface.coating));
-            }
-            const bool glass_before = !is_air(medium_before(shown_, row));
-            const bool glass_after = !is_air(surface.medium_after);
-            return glass_before && glass_after   ? QStringLiteral("cemented")
-                   : glass_before || glass_after ? QStringLiteral("none")
-                                                 : QString();
-        }
-        default:
-            return QString::fromStdString(surface.comment);
+    const std::string kind = vary_kind(surface, column);
+    QString marks;
+    if (!kind.empty() && varied(surface).contains(kind)) {
+        marks += 'V';
     }
-}
-
-QString PrescriptionModel::edit_text(std::size_t row, int column) const {
-    const Surface& surface = shown_.surfaces[row];
-    switch (column) {
-        case radius:
-            return text_of_curve(surface.curve);
-        case thickness:
-            return shortest(thickness_mm(shown_, configuration_, row));
-        case medium:
-            return text_of_medium(surface.medium_after);
-        case semi_diameter:
-            return shortest(surface.semi_diameter_mm);
-        case conic:
-            return shortest(surface.conic);
-        case aspheric:
-            return text_of_aspheric(surface.aspheric);
-        case coating:
-            return text_of_coating(surface.coating);
-        default:
-            return display_text(row, column);
+    if (column == semi_diameter && surface.semi_diameter_sized) {
+        marks += 'A';
     }
-}
-
-QString PrescriptionModel::tool_tip(std::size_t row, int column) const {
-    const Surface& surface = shown_.surfaces[row];
-    if (column == medium && is_unknown(surface.medium_after)) {
-        const QStringList names = offered_glasses(surface.medium_after);
-        return why_unknown(shown_, row) +
-               (names.isEmpty() ? QString()
-                                : QStringLiteral("\nNearest names: %1").arg(names.join(", "))) +
-               QStringLiteral("\nType a catalogue name, or nd / Vd.");
-    }
-    if (column == medium && !is_air(surface.medium_after)) {
-        try {
-            return QStringLiteral("nd %1, Vd %2")
-                .arg(significant(refractive_index(surface.medium_after, d_line_nm), 6),
-                     significant(abbe_number(surface.medium_after)));
-        } catch (const Error& error) {
-            return error.what();
-        }
-    }
-    if (column == thickness && overrides_thickness(shown_, configuration_, row)) {
-        return QStringLiteral("Set by the configuration %1; as listed %2 mm")
-            .arg(QString::fromStdString(configuration_), shortest(surface.thickness_mm));
-    }
-    if (column == thickness && row + 1 == shown_.surfaces.size()) {
-        return shown_.sensor.at_paraxial_focus
-                   ? QStringLiteral("The sensor is at the paraxial focus instead.")
-                   : QStringLiteral("To the sensor");
-    }
-    if (column == coating || column == aspheric || column == comment) {
-        return edit_text(row, column);
-    }
-    return {};
+    return marks;
 }
 
 QVariant PrescriptionModel::data(const QModelIndex& index, int role) const {
@@ -224,11 +150,16 @@ QVariant PrescriptionModel::data(const QModelIndex& index, int role) const {
     const int column = index.column();
     switch (role) {
         case Qt::DisplayRole:
-            return display_text(row, column);
+            return cell_text(shown(), row, column);
         case Qt::EditRole:
-            return edit_text(row, column);
-        case Qt::ToolTipRole:
-            return tool_tip(row, column);
+            return cell_edit_text(shown(), row, column);
+        case Qt::ToolTipRole: {
+            QString tip = cell_tool_tip(shown(), row, column);
+            if (mark(row, column).contains('V')) {
+                tip += QStringLiteral("%1Variable in a fit").arg(tip.isEmpty() ? "" : "\n");
+            }
+            return tip;
+        }
         case Qt::TextAlignmentRole:
             return QVariant::fromValue(Qt::AlignVCenter |
                                        (is_number(column) ? Qt::AlignRight : Qt::AlignLeft));
@@ -248,6 +179,10 @@ QVariant PrescriptionModel::data(const QModelIndex& index, int role) const {
         case offers_role:
             return column == medium ? QVariant(offered_glasses(shown_.surfaces[row].medium_after))
                                     : QVariant();
+        case mark_role:
+            return mark(row, column);
+        case vary_kind_role:
+            return QString::fromStdString(vary_kind(shown_.surfaces[row], column));
         case must_be_mended_role:
             return column == medium && is_unknown(shown_.surfaces[row].medium_after);
         case Qt::ForegroundRole: {
@@ -258,7 +193,7 @@ QVariant PrescriptionModel::data(const QModelIndex& index, int role) const {
                                   shown_.sensor.at_paraxial_focus;
             const bool bare =
                 column == coating && std::holds_alternative<Uncoated>(shown_.surfaces[row].coating);
-            if (is_stop(row) || column == number || replaced || bare) {
+            if (is_stop(row) || column == number || column == dispersion || replaced || bare) {
                 return current_palette().dim;
             }
             return {};
@@ -272,7 +207,9 @@ QVariant PrescriptionModel::headerData(int section, Qt::Orientation orientation,
     if (orientation != Qt::Horizontal || section < 0 || section >= column_count) {
         return {};
     }
-    const ColumnText& column = columns[static_cast<std::size_t>(section)];
+    const ColumnText& column = section == radius && curvatures_
+                                   ? curvature_column
+                                   : columns[static_cast<std::size_t>(section)];
     switch (role) {
         case Qt::DisplayRole:
             return QString::fromUtf8(column.header);
@@ -288,53 +225,8 @@ QVariant PrescriptionModel::headerData(int section, Qt::Orientation orientation,
 
 Qt::ItemFlags PrescriptionModel::flags(const QModelIndex& index) const {
     const auto flags = QAbstractTableModel::flags(index);
-    return index.isValid() && index.column() != number ? flags | Qt::ItemIsEditable : flags;
-}
-
-Prescription PrescriptionModel::edited(const QModelIndex& index, const QString& text) const {
-    Prescription lens = document_.lens();
-    const std::size_t row = row_of(index);
-    Surface& surface = lens.surfaces.at(row);
-    switch (index.column()) {
-        case radius:
-            surface.curve = read_curve(text);
-            break;
-        case thickness:
-            lens = with_thickness(std::move(lens), configuration_, row,
-                                  read_number(text, "a thickness in mm"));
-            break;
-        case medium:
-            surface.medium_after = read_medium(text, bundled_glasses());
-            break;
-        case semi_diameter:
-            surface.semi_diameter_mm = read_positive(text, "a semi-diameter in mm, above 0");
-            surface.semi_diameter_sized = false;
-            break;
-        case conic:
-            surface.conic = text.trimmed().isEmpty() ? 0.0 : read_number(text, "a conic constant");
-            break;
-        case aspheric:
-            surface.aspheric = read_aspheric(text);
-            break;
-        case coating:
-            surface.coating = read_coating(text, bundled_glasses());
-            break;
-        case comment:
-            surface.comment = text.trimmed().toStdString();
-            break;
-        default:
-            break;
-    }
-    bool was_sound = true;
-    try {
-        validate(document_.lens());
-    } catch (const Error&) {
-        was_sound = false;  // it came like this; an edit that repairs one of two faults is welcome
-    }
-    if (was_sound) {
-        validate(lens);
-    }
-    return lens;
+    const bool is_read_only = index.column() == number || index.column() == dispersion;
+    return index.isValid() && !is_read_only ? flags | Qt::ItemIsEditable : flags;
 }
 
 QString PrescriptionModel::refusal(const QModelIndex& index, const QString& text) const {
@@ -342,7 +234,7 @@ QString PrescriptionModel::refusal(const QModelIndex& index, const QString& text
         return {};
     }
     try {
-        edited(index, text);
+        with_cell_text(shown(), row_of(index), index.column(), text);
     } catch (const Error& error) {
         return error.what();
     }
@@ -359,10 +251,8 @@ bool PrescriptionModel::setData(const QModelIndex& index, const QVariant& value,
         return true;
     }
     try {
-        document_.edit_lens(edited(index, text),
-                            QStringLiteral("change %1 of surface %2")
-                                .arg(columns[static_cast<std::size_t>(index.column())].what)
-                                .arg(index.row() + 1),
+        document_.edit_lens(with_cell_text(shown(), row_of(index), index.column(), text),
+                            step_name(index),
                             QString::fromStdString(field_key(index, configuration_)));
         return true;
     } catch (const Error& error) {
@@ -415,6 +305,74 @@ bool PrescriptionModel::make_stop(int row) {
     return attempt(QStringLiteral("make surface %1 the stop").arg(row + 1), [&](Prescription lens) {
         return with_stop_at(std::move(lens), static_cast<std::size_t>(row));
     });
+}
+
+bool PrescriptionModel::reverse() {
+    return attempt("reverse the lens", [](const Prescription& lens) { return reversed(lens); });
+}
+
+bool PrescriptionModel::scale(double factor) {
+    return attempt(QStringLiteral("scale the lens by %1").arg(shortest(factor)),
+                   [&](const Prescription& lens) { return scaled(lens, factor); });
+}
+
+void PrescriptionModel::set_shows_curvatures(bool shown) {
+    if (shown == curvatures_) {
+        return;
+    }
+    curvatures_ = shown;
+    Q_EMIT headerDataChanged(Qt::Horizontal, radius, radius);
+    if (rowCount() > 0) {
+        Q_EMIT dataChanged(index(0, radius), index(rowCount() - 1, radius));
+    }
+}
+
+bool PrescriptionModel::set_texts(const std::vector<CellText>& cells, const QString& name) {
+    return attempt(name, [&](const Prescription&) { return with_cell_texts(shown(), cells); });
+}
+
+std::vector<CellNumber> PrescriptionModel::numbers(const QModelIndex& index) const {
+    return index.isValid() && row_of(index) < shown_.surfaces.size()
+               ? cell_numbers(shown(), row_of(index), index.column())
+               : std::vector<CellNumber>();
+}
+
+bool PrescriptionModel::set_number(const QModelIndex& index, std::size_t which, double value,
+                                   int drag) {
+    try {
+        document_.edit_lens(with_cell_number(shown(), row_of(index), index.column(), which, value),
+                            step_name(index),
+                            QStringLiteral("drag/%1/%2")
+                                .arg(drag)
+                                .arg(QString::fromStdString(field_key(index, configuration_))));
+        return true;
+    } catch (const Error& error) {
+        Q_EMIT refused(index, error.what());
+        return false;
+    }
+}
+
+void PrescriptionModel::set_varied(const QModelIndexList& cells, bool varies) {
+    attempt(varies ? "mark as variable" : "mark as fixed", [&](Prescription lens) {
+        for (const QModelIndex& cell : cells) {
+            Surface& surface = lens.surfaces.at(row_of(cell));
+            const std::string kind = vary_kind(surface, cell.column());
+            if (!kind.empty()) {
+                ghostlight::set_varied(surface, kind, varies);
+            }
+        }
+        return lens;
+    });
+}
+
+void PrescriptionModel::set_own_thickness(int row, bool own) {
+    attempt(QString(own ? "give surface %1 a thickness of its own here"
+                        : "take the thickness of surface %1 as listed")
+                .arg(row + 1),
+            [&](Prescription lens) {
+                return with_own_thickness(std::move(lens), configuration_,
+                                          static_cast<std::size_t>(row), own);
+            });
 }
 
 }  // namespace ghostlight

@@ -4,14 +4,20 @@
 #include <QCompleter>
 #include <QKeyEvent>
 #include <QLineEdit>
+#include <QPainter>
+#include <QStandardItemModel>
 #include <QStyle>
 #include <QTimer>
 
-#include <set>
+#include <map>
+#include <utility>
+#include <vector>
 
 #include "core/error.h"
+#include "core/io/coating_library.h"
 #include "core/io/glass_library.h"
 #include "widgets/models/prescription_model.h"
+#include "widgets/palette.h"
 
 namespace ghostlight {
 
@@ -19,39 +25,95 @@ namespace {
 
 /// Which cell an editor belongs to.
 constexpr const char* cell_property = "cell";
+/// What a list of words shows beside each.
+constexpr int beside_role = Qt::UserRole;
+constexpr int beside_gap = 24;
+constexpr int mark_width = 12;
 
-/// Every glass at hand, by name, each once.
-QStringList all_glasses() {
-    std::set<QString> names;
+/// Every glass at hand, by name, each once, with its nd, Vd and catalogue in words.
+std::map<QString, QString> all_glasses() {
+    std::map<QString, QString> names;
     try {
         const auto library = glass_library();
         for (const GlassFile& catalog : library->catalogs) {
             for (const CataloguedGlass& glass : catalog.glasses) {
-                names.insert(QString::fromStdString(glass.medium.name));
+                const auto nd = known_nd(glass);
+                const auto vd = known_vd(glass);
+                names.emplace(QString::fromStdString(glass.medium.name),
+                              QStringLiteral("%1 / %2   %3")
+                                  .arg(nd ? QString::number(*nd, 'f', 4) : QStringLiteral("–"),
+                                       vd ? QString::number(*vd, 'f', 1) : QStringLiteral("–"),
+                                       QString::fromStdString(glass.catalog)));
             }
         }
     } catch (const Error&) {
         // No catalogue: nothing to suggest.
     }
-    return {names.begin(), names.end()};
+    return names;
 }
 
-QStringList suggestions(const QModelIndex& index) {
+/// A word, and what is said beside it.
+using Suggestion = std::pair<QString, QString>;
+
+std::vector<Suggestion> suggestions(const QModelIndex& index) {
     if (index.column() == PrescriptionModel::coating) {
-        return {"none", "MgF2 λ/4 550", "ideal λ/4 550", "1.38 λ/4 550"};
+        std::vector<Suggestion> names;
+        for (const char* plain : {"none", "MgF2 λ/4 550", "ideal λ/4 550", "1.38 λ/4 550"}) {
+            names.emplace_back(plain, QString());
+        }
+        try {
+            for (const LibraryCoating& coating : coating_library()) {
+                names.emplace_back(QString::fromStdString(coating.name),
+                                   QString::fromStdString(coating.title));
+            }
+        } catch (const Error&) {
+            // No library: the plain ones are there all the same.
+        }
+        return names;
     }
     if (index.column() != PrescriptionModel::medium) {
         return {};
     }
-    QStringList names = index.data(PrescriptionModel::offers_role).toStringList();
-    const QStringList offers = names;
-    for (const QString& name : all_glasses()) {
-        if (!offers.contains(name)) {
-            names << name;
-        }
+    std::vector<Suggestion> names;
+    std::map<QString, QString> glasses = all_glasses();
+    for (const QString& offer : index.data(PrescriptionModel::offers_role).toStringList()) {
+        names.emplace_back(offer, glasses[offer]);
+        glasses.erase(offer);
     }
+    names.insert(names.end(), glasses.begin(), glasses.end());
     return names;
 }
+
+/// Words to complete from; what is said beside each is seen and not typed.
+QAbstractItemModel* word_list(const std::vector<Suggestion>& words, QObject* parent) {
+    auto* list = new QStandardItemModel(static_cast<int>(words.size()), 1, parent);
+    for (int row = 0; row < list->rowCount(); ++row) {
+        const auto& [word, beside] = words[static_cast<std::size_t>(row)];
+        list->setData(list->index(row, 0), word, Qt::EditRole);
+        list->setData(list->index(row, 0), beside, beside_role);
+    }
+    return list;
+}
+
+/// A word on the left, and dim on the right what is said beside it.
+class WordDelegate : public QStyledItemDelegate {
+   public:
+    using QStyledItemDelegate::QStyledItemDelegate;
+    void paint(QPainter* painter, const QStyleOptionViewItem& option,
+               const QModelIndex& index) const override {
+        QStyledItemDelegate::paint(painter, option, index);
+        const QRect inside = option.rect.adjusted(0, 0, -8, 0);
+        painter->setPen(current_palette().dim);
+        painter->drawText(inside, Qt::AlignRight | Qt::AlignVCenter,
+                          index.data(beside_role).toString());
+    }
+    QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+        QSize size = QStyledItemDelegate::sizeHint(option, index);
+        const QString beside = index.data(beside_role).toString();
+        size.rwidth() += beside_gap + option.fontMetrics.horizontalAdvance(beside);
+        return size;
+    }
+};
 
 /// What may be meant comes first, unasked, under a cell that must be mended.
 void offer_at_once(QLineEdit* editor) {
@@ -76,6 +138,38 @@ void mark(QLineEdit& editor, bool refused) {
 
 PrescriptionDelegate::PrescriptionDelegate(QObject* parent) : TableDelegate(-1, -1, parent) {}
 
+void PrescriptionDelegate::paint(QPainter* painter, const QStyleOptionViewItem& option,
+                                 const QModelIndex& index) const {
+    TableDelegate::paint(painter, option, index);
+    const QString marks = index.data(PrescriptionModel::mark_role).toString();
+    if (marks.isEmpty()) {
+        return;
+    }
+    painter->save();
+    QFont small = option.font;
+    small.setPixelSize(10);
+    small.setWeight(QFont::DemiBold);
+    painter->setFont(small);
+    int x = index.data(Qt::TextAlignmentRole).toInt() & Qt::AlignRight
+                ? option.rect.left() + 3
+                : option.rect.right() - mark_width * static_cast<int>(marks.size());
+    for (const QChar& letter : marks) {
+        painter->setPen(letter == 'V' ? current_palette().teal : current_palette().dim);
+        painter->drawText(QRect(x, option.rect.top(), mark_width, option.rect.height()),
+                          Qt::AlignCenter, letter);
+        x += mark_width;
+    }
+    painter->restore();
+}
+
+QSize PrescriptionDelegate::sizeHint(const QStyleOptionViewItem& option,
+                                     const QModelIndex& index) const {
+    QSize size = TableDelegate::sizeHint(option, index);
+    const auto marks = index.data(PrescriptionModel::mark_role).toString().size();
+    size.rwidth() += mark_width * static_cast<int>(marks);
+    return size;
+}
+
 QWidget* PrescriptionDelegate::createEditor(QWidget* parent, const QStyleOptionViewItem&,
                                             const QModelIndex& index) const {
     auto* editor = new QLineEdit(parent);
@@ -86,14 +180,15 @@ QWidget* PrescriptionDelegate::createEditor(QWidget* parent, const QStyleOptionV
         index.column() == PrescriptionModel::aspheric) {
         editor->setMinimumWidth(200);  // what is typed here may be longer than the column is wide
     }
-    const QStringList words = suggestions(index);
-    if (!words.isEmpty()) {
-        auto* completer = new QCompleter(words, editor);
+    const std::vector<Suggestion> words = suggestions(index);
+    if (!words.empty()) {
+        auto* completer = new QCompleter(word_list(words, editor), editor);
         completer->setCaseSensitivity(Qt::CaseInsensitive);
         completer->setFilterMode(Qt::MatchContains);
         completer->setMaxVisibleItems(10);
         editor->setCompleter(completer);
-        completer->popup()->setMinimumWidth(160);
+        completer->popup()->setItemDelegate(new WordDelegate(completer));
+        completer->popup()->setMinimumWidth(320);
         if (index.data(PrescriptionModel::must_be_mended_role).toBool()) {
             offer_at_once(editor);
         }

@@ -15,6 +15,10 @@ class PrescriptionDelegate : public TableDelegate {
    public:
     explicit PrescriptionDelegate(QObject* parent);
 
+    /// Also what is marked: V for what a fit may vary, A for an automatic semi-diameter.
+    void paint(QPainter* painter, const QStyleOptionViewItem& option,
+               const QModelIndex& index) const override;
+    QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override;
     QWidget* createEditor(QWidget* parent, const QStyleOptionViewItem& option,
                           const QModelIndex& index) const override;
     void setEditorData(QWidget* editor, const QModelIndex& index) const override;

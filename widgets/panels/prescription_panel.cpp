@@ -15,8 +15,10 @@
 #include "widgets/models/prescription_model.h"
 #include "widgets/panel_header.h"
 #include "widgets/panels/empty_state.h"
+#include "widgets/panels/number_handle.h"
 #include "widgets/panels/plain_table.h"
 #include "widgets/panels/prescription_delegate.h"
+#include "widgets/panels/scale_strip.h"
 #include "widgets/settings.h"
 #include "widgets/unknown_glass.h"
 
@@ -27,7 +29,7 @@ namespace {
 QTableView* make_table(QAbstractItemModel* model, QAbstractItemDelegate* delegate) {
     QTableView* table = plain_table(model, delegate);
     table->setObjectName("prescription_table");
-    table->setSelectionMode(QAbstractItemView::SingleSelection);
+    table->setSelectionMode(QAbstractItemView::ExtendedSelection);
     table->setSelectionBehavior(QAbstractItemView::SelectItems);
     table->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed |
                            QAbstractItemView::AnyKeyPressed);
@@ -42,6 +44,8 @@ PrescriptionPanel::PrescriptionPanel(Document& document, const Actions& actions,
       document_(document),
       model_(new PrescriptionModel(document, this)),
       header_(new PanelHeader("Prescription")),
+      handle_(new NumberHandle(*model_)),
+      scale_(new ScaleStrip(document)),
       pages_(new QStackedWidget) {
     auto* delegate = new PrescriptionDelegate(this);
     table_ = make_table(model_, delegate);
@@ -62,6 +66,8 @@ PrescriptionPanel::PrescriptionPanel(Document& document, const Actions& actions,
     column->setSpacing(0);
     column->addWidget(header_);
     column->addWidget(pages_, 1);
+    column->addWidget(scale_);
+    column->addWidget(handle_);
 
     connect(delegate, &PrescriptionDelegate::refusal_changed, this,
             &PrescriptionPanel::show_reason);
@@ -82,8 +88,17 @@ PrescriptionPanel::PrescriptionPanel(Document& document, const Actions& actions,
     connect(&document_, &Document::changed, this, &PrescriptionPanel::follow_document);
     connect(&document_, &Document::opened, this,
             // After the views have got the new rows.
-            [this] { QTimer::singleShot(0, this, &PrescriptionPanel::show_columns); });
+            [this] {
+                QTimer::singleShot(0, this, [this] {
+                    show_columns();
+                    if (current_row() < 0 && model_->rowCount() > 0) {
+                        go_to(0);  // the panels about a surface have one to begin with
+                    }
+                });
+            });
     connect_actions(actions);
+    connect_cells(actions);
+    connect_handle();
     follow_document();
     show_columns();
 }
@@ -129,12 +144,19 @@ void PrescriptionPanel::connect_actions(const Actions& actions) {
     };
     on_columns("view.aspheres", settings::shows_aspheres(), settings::set_shows_aspheres);
     on_columns("view.comments", settings::shows_comments(), settings::set_shows_comments);
+    model_->set_shows_curvatures(settings::shows_curvatures());
+    on_columns("view.curvatures", settings::shows_curvatures(),
+               [](bool wanted) { settings::set_shows_curvatures(wanted); });
+    connect(&actions["view.curvatures"], &QAction::toggled, this, [this](bool wanted) {
+        model_->set_shows_curvatures(wanted);
+        show_columns();
+    });
     QHeaderView* header = table_->horizontalHeader();
     header->setContextMenuPolicy(Qt::CustomContextMenu);
     connect(header, &QWidget::customContextMenuRequested, this,
             [header, &actions](const QPoint& at) {
                 QMenu menu;
-                actions.fill(menu, {"view.aspheres", "view.comments"});
+                actions.fill(menu, {"view.curvatures", "view.aspheres", "view.comments"});
                 menu.exec(header->mapToGlobal(at));
             });
 }
@@ -142,8 +164,10 @@ void PrescriptionPanel::connect_actions(const Actions& actions) {
 void PrescriptionPanel::show_menu(const QPoint& position, const Actions& actions) {
     QMenu menu;
     add_offers(menu, table_->indexAt(position));
-    actions.fill(menu, {"edit.insert", "edit.delete", "-", "edit.move_up", "edit.move_down", "-",
-                        "edit.make_stop", "-", "edit.undo", "edit.redo"});
+    actions.fill(menu,
+                 {"edit.insert", "edit.delete", "-", "edit.move_up", "edit.move_down", "-",
+                  "edit.make_stop", "-", "edit.copy_cells", "edit.paste_cells", "-", "edit.vary",
+                  "edit.auto_size", "edit.own_thickness", "-", "edit.undo", "edit.redo"});
     menu.exec(table_->viewport()->mapToGlobal(position));
 }
 
@@ -183,6 +207,7 @@ bool PrescriptionPanel::mend_glass() {
 
 void PrescriptionPanel::follow_document() {
     pages_->setCurrentIndex(document_.is_empty() ? 0 : 1);
+    handle_->setVisible(!document_.is_empty());
     if (document_.is_empty()) {
         header_->set_state(QString());
         return;
@@ -218,6 +243,11 @@ void PrescriptionPanel::show_columns() {
     table_->setColumnHidden(PrescriptionModel::conic, !aspheric);
     table_->setColumnHidden(PrescriptionModel::aspheric, !aspheric);
     table_->setColumnHidden(PrescriptionModel::comment, !commented);
+    // Glasses given by their numbers say them in their own column.
+    table_->setColumnHidden(PrescriptionModel::dispersion,
+                            std::ranges::none_of(lens.surfaces, [](const Surface& surface) {
+                                return !surface.medium_after.name.empty();
+                            }));
     fit_columns(*table_);
 }
 

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 
+#include "widgets/panels/scrub.h"
 #include "widgets/tabular_text.h"
 
 namespace ghostlight {
@@ -28,7 +29,10 @@ void set_mark(QFrame& frame, const char* mark, bool on) {
     frame.style()->polish(&frame);
 }
 
-QHBoxLayout* field_row(QFrame& frame, const QString& label, const QString& tip) {
+/// A drag over a name goes by a step every so many pixels.
+constexpr double step_px = 6.0;
+
+QHBoxLayout* field_row(QFrame& frame, QLabel* text, const QString& tip) {
     frame.setProperty("field", true);
     frame.setToolTip(tip);
     frame.setFixedHeight(28);
@@ -36,7 +40,6 @@ QHBoxLayout* field_row(QFrame& frame, const QString& label, const QString& tip) 
     auto* row = new QHBoxLayout(&frame);
     row->setContentsMargins(8, 0, 8, 0);
     row->setSpacing(6);
-    auto* text = new QLabel(label);
     text->setForegroundRole(QPalette::PlaceholderText);
     row->addWidget(text);
     return row;
@@ -47,7 +50,19 @@ QHBoxLayout* field_row(QFrame& frame, const QString& label, const QString& tip) 
 NumberField::NumberField(const QString& label, const QString& unit, const QString& tip,
                          QWidget* parent)
     : QFrame(parent), editor_(new QLineEdit), unit_(unit) {
-    QHBoxLayout* row = field_row(*this, label, tip);
+    auto* name = new QLabel(label);
+    name->setCursor(Qt::SizeHorCursor);
+    QHBoxLayout* row = field_row(
+        *this, name, tip.isEmpty() ? tip : tip + "\nDrag its name sideways to change it.");
+    auto* scrub = new Scrub(*name, Qt::LeftButton);
+    connect(scrub, &Scrub::begun, this, [this] { scrubbed_ = 0; });
+    connect(scrub, &Scrub::moved, this, [this](double px) {
+        const int steps = static_cast<int>(px / step_px) - scrubbed_;
+        if (steps != 0) {
+            scrubbed_ += steps;
+            Q_EMIT stepped(steps);
+        }
+    });
     editor_->setFrame(false);
     editor_->setAlignment(Qt::AlignLeft);
     editor_->setTextMargins(0, 0, 0, 0);
@@ -129,7 +144,7 @@ void NumberField::wheelEvent(QWheelEvent* event) {
 
 ChoiceField::ChoiceField(const QString& label, const QString& tip, bool editable, QWidget* parent)
     : QFrame(parent), box_(new QComboBox) {
-    QHBoxLayout* row = field_row(*this, label, tip);
+    QHBoxLayout* row = field_row(*this, new QLabel(label), tip);
     box_->setFrame(false);
     box_->setEditable(editable);
     box_->setInsertPolicy(QComboBox::NoInsert);

@@ -38,6 +38,7 @@ class NumberField : public QFrame {
     QLineEdit* editor_;
     QString unit_;
     QString shown_;
+    int scrubbed_ = 0;  ///< steps since a drag over the name began
 };
 
 /// The same with a choice.
