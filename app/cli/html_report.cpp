@@ -6,7 +6,7 @@
 
 #include "app/cli/exposure.h"
 #include "app/cli/ghost_reports.h"
-#include "app/cli/html_page.h"
+#include "core/io/html_page.h"
 #include "app/cli/lens_data.h"
 #include "core/flare/flare_image.h"
 #include "core/io/chart_svg.h"

@@ -149,6 +149,7 @@ double FitRun::solve(int iterations) {
     options.parameter_tolerance = 1e-8;
     options.logging_type = ceres::SILENT;
     options.num_threads = 1;
+    options.update_state_every_iteration = static_cast<bool>(request_.look);
     struct Watch final : ceres::IterationCallback {
         FitRun& fit;
         explicit Watch(FitRun& of) : fit(of) {}
@@ -156,6 +157,7 @@ double FitRun::solve(int iterations) {
             fit.cost_ = s.cost;
             fit.report_.cost_curve.push_back(s.cost);
             fit.tell(0.5);
+            if (fit.request_.look) fit.show_look();
             return fit.stop_.stop_requested() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
                                               : ceres::SOLVER_CONTINUE;
         }
