@@ -26,7 +26,8 @@ std::string document_to_json(const DocumentState& state, const std::filesystem::
     Prescription lens = state.lens;
     lens.unknown[std::string(scene_field)] = scene_to_json(state.scene);
     if (!state.fit.empty()) {
-        lens.unknown[std::string(fit_field)] = state.fit;
+        lens.unknown[std::string(fit_field)] =
+            fit_setup_to_json(fit_setup_from_json(state.fit), folder);
     }
     return lens_to_json(lens, folder);
 }
@@ -98,6 +99,9 @@ std::optional<Error> Document::open(const std::filesystem::path& file) {
         std::error_code unreadable;
         const auto absolute = std::filesystem::absolute(file, unreadable);
         DocumentState state = document_from_lens(std::move(read.lens));
+        if (!state.fit.empty()) {  // photographs are named from the lens's folder
+            state.fit = fit_setup_to_json(fit_setup_from_json(state.fit, absolute.parent_path()));
+        }
         begin(state, unreadable ? file : absolute, std::move(read.notes));
         saved_lens_ = state_.lens;
         Q_EMIT file_changed();

@@ -69,6 +69,7 @@ MainWindow::MainWindow(bool remembers, MakeGlEngine make_gl)
     connect_actions();
     connect_engines();
     connect_reports();
+    connect_studies();
     resize(1720, 1000);
     arrange_panels();
     if (remembers_) {
@@ -131,6 +132,8 @@ void MainWindow::build_panels() {
     light_dock_ = add_dock(light_, "light", "Light", Qt::RightDockWidgetArea);
     report_dock_ = add_dock(report_, "import_report", "Import report", Qt::BottomDockWidgetArea);
 
+    build_studies();
+
     status_ = new StatusLine(document_);
     statusBar()->setSizeGripEnabled(false);
     statusBar()->setContentsMargins(0, 0, 0, 0);
@@ -161,7 +164,7 @@ void MainWindow::build_menus() {
         {"ghosts.copy", "ghosts.clear", "-", "ghosts.all", "ghosts.above_3", "ghosts.above_2"});
     QMenu* view = actions_.add_menu(bar, "&View", {"view.fit", "view.expose", "-"});
     for (QDockWidget* dock : {prescription_dock_, layout_dock_, ghost_dock_, first_order_dock_,
-                              stop_dock_, light_dock_, report_dock_}) {
+                              stop_dock_, light_dock_, report_dock_, fit_dock_, accuracy_dock_}) {
         view->addAction(dock->toggleViewAction());
     }
     actions_.fill(*view, {"view.reset", "-", "report.all", "report.matters", "report.copy",
@@ -196,6 +199,7 @@ void MainWindow::arrange_panels() {
     resizeDocks({ghost_dock_, first_order_dock_}, {height() * 60 / 100, height() * 40 / 100},
                 Qt::Vertical);
     resizeDocks({report_dock_}, {height() * 22 / 100}, Qt::Vertical);
+    arrange_studies();
     // Tables need a certain width and no more; pictures take what is left.
     const int left = std::clamp(width() * 32 / 100, 380, 640);
     const int right = std::clamp(width() * 24 / 100, 300, 620);

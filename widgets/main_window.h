@@ -14,11 +14,13 @@
 
 namespace ghostlight {
 
+class AccuracyPanel;
 class Autosave;
 class Banner;
 class CertificateJob;
 class FileActions;
 class FirstOrderPanel;
+class FitPanel;
 class FlarePanel;
 class GhostPanel;
 class ImportReportPanel;
@@ -64,6 +66,8 @@ class MainWindow : public QMainWindow {
     StopPanel& stop_panel() { return *stop_; }
     LightPanel& light_panel() { return *light_; }
     LayersStrip& layers_strip() { return *layers_; }
+    FitPanel& fit_panel() { return *fit_; }
+    AccuracyPanel& accuracy_panel() { return *accuracy_; }
     const std::optional<FlarePicture>& picture() const { return picture_; }
 
    Q_SIGNALS:
@@ -79,6 +83,9 @@ class MainWindow : public QMainWindow {
    private:
     void build_panels();
     void build_menus();
+    void build_studies();
+    void connect_studies();
+    void arrange_studies();
     void connect_document();
     void connect_jobs();
     void connect_actions();
@@ -126,6 +133,11 @@ class MainWindow : public QMainWindow {
     QDockWidget* first_order_dock_ = nullptr;
     QDockWidget* stop_dock_ = nullptr;
     QDockWidget* light_dock_ = nullptr;
+
+    FitPanel* fit_ = nullptr;
+    AccuracyPanel* accuracy_ = nullptr;
+    QDockWidget* fit_dock_ = nullptr;
+    QDockWidget* accuracy_dock_ = nullptr;
 
     QTimer scene_update_;  ///< many changes, one drawing
     std::optional<FlarePicture> picture_;

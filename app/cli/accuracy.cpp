@@ -8,12 +8,12 @@
 #include <fstream>
 #include <memory>
 
-#include "core/io/accuracy_page.h"
 #include "app/cli/commands.h"
 #include "app/cli/output.h"
 #include "app/cli/report.h"
 #include "app/cli/spectrum_option.h"
 #include "core/instruction_set.h"
+#include "core/io/accuracy_page.h"
 #include "core/optics/paraxial.h"
 #include "core/parallel.h"
 #include "core/units.h"

@@ -4,11 +4,11 @@
 #include <memory>
 
 #include "app/cli/commands.h"
-#include "core/io/fit_page.h"
 #include "app/cli/output.h"
 #include "app/cli/report.h"
 #include "app/cli/spectrum_option.h"
 #include "core/fit/fit_setup.h"
+#include "core/io/fit_page.h"
 #include "core/io/photo_file.h"
 #include "core/optics/optical_system.h"
 #include "core/optics/paraxial.h"

@@ -32,7 +32,8 @@ void FitRun::tell(double share) const {
 }
 
 void FitRun::show_look() const {
-    FitLook look{.cost = cost_, .numbers = {}, .lens = with_coatings(current_geometry()), .photos = {}};
+    FitLook look{
+        .cost = cost_, .numbers = {}, .lens = with_coatings(current_geometry()), .photos = {}};
     const auto coatings = evaluator_->coating_values();
     for (std::size_t k = 0; k < layout_.lens_count(); ++k) {
         const bool moves_no_ray = k < layout_.coatings.size();
@@ -51,6 +52,7 @@ void FitRun::show_look() const {
         photo.used = views_[i].data.used;
         photo.measured = views_[i].data.value;
         photo.after = evaluator_->model(i);
+        photo.residuals = evaluator_->residuals(i);
     }
     request_.look(look);
 }

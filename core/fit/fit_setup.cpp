@@ -39,8 +39,8 @@ LightDirection read_direction(const std::string& text) {
     const std::string_view rest = std::string_view(text).substr(4);
     const std::size_t colon = rest.find(':');
     const auto field = number(rest.substr(0, colon));
-    const auto azimuth = colon == std::string_view::npos ? std::optional(90.0)
-                                                         : number(rest.substr(colon + 1));
+    const auto azimuth =
+        colon == std::string_view::npos ? std::optional(90.0) : number(rest.substr(colon + 1));
     if (!field || !azimuth || std::abs(*field) > 90.0) refuse_place(text, expected);
     return {*field, *azimuth};
 }

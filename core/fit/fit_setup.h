@@ -42,8 +42,8 @@ LightDirection light_at(const OpticalSystem& system, const FitPhoto& photo, doub
                         double row);
 
 /// Reads where the light is, sets FitPhoto::light and masks its image: "auto" (the largest bright
-/// patch), "X,Y" (pixels from the upper left corner of the upright picture) or "deg:FIELD[:AZIMUTH]".
-/// A light that was found is told in `notes`. Throws Error.
+/// patch), "X,Y" (pixels from the upper left corner of the upright picture) or
+/// "deg:FIELD[:AZIMUTH]". A light that was found is told in `notes`. Throws Error.
 void place_light(const std::string& text, const OpticalSystem& system, FitPhoto& photo,
                  Notes& notes);
 

@@ -161,8 +161,8 @@ Table ghost_accuracy_rows(const AccuracyRun& run) {
     for (const AccuracyCase& one : run.cases)
         for (const GhostAccuracy& g : one.report.by_ghost)
             table.rows.push_back({one.short_name, one.field_deg, one.closed_stops,
-                                  name(g.path, one.surfaces), g.method,
-                                  g.flux_error, g.centroid_shift_px, g.size_error});
+                                  name(g.path, one.surfaces), g.method, g.flux_error,
+                                  g.centroid_shift_px, g.size_error});
     return table;
 }
 
@@ -317,8 +317,7 @@ std::string accuracy_html(const AccuracyRun& run) {
     }
     html += "<h2>Lenses and settings</h2>\n<pre>" + xml_text(run.command) + "\n";
     for (const AccuracyCase& one : run.cases)
-        html +=
-            fmt::format("\n{}: {}", xml_text(one.short_name), xml_text(one.file));
+        html += fmt::format("\n{}: {}", xml_text(one.short_name), xml_text(one.file));
     html += fmt::format("\n{}\nprogram: ghostlight-cli " GHOSTLIGHT_VERSION "</pre>\n",
                         xml_text(run.machine));
     return html + "</body></html>\n";

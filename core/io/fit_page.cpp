@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/io/html_page.h"
 #include "core/flare/flare_image.h"
 #include "core/io/chart_svg.h"
+#include "core/io/html_page.h"
 #include "core/io/image_file.h"
 
 namespace ghostlight {
