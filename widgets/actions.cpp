@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::array texts = {
     ActionText{"file.open", "&Open…", "Ctrl+O", "Open a lens file"},
+    ActionText{"file.gallery", "&Gallery of Bundled Lenses…", "Ctrl+Shift+O",
+               "Choose a bundled lens by its layout and its flare"},
     ActionText{"file.save", "&Save", "Ctrl+S", "Save the lens in its file"},
     ActionText{"file.save_as", "Save &As…", "Ctrl+Shift+S", "Save the lens in another file"},
     ActionText{"file.export_lens", "Export &Lens…", "",
@@ -63,8 +65,20 @@ constexpr std::array texts = {
     ActionText{"engine.cpu", "&CPU", "", "Draw flares on the processor's cores", true},
     ActionText{"engine.opengl", "&OpenGL", "",
                "Draw flares on the graphics card, as long as it can", true},
+    ActionText{"view.next_panel", "&Next Panel", "F6", "The keyboard goes to the next panel"},
+    ActionText{"view.previous_panel", "&Previous Panel", "Shift+F6",
+               "The keyboard goes to the panel before"},
+    ActionText{"view.larger_text", "&Larger Text", "Ctrl++", "All letters a tenth larger"},
+    ActionText{"view.smaller_text", "&Smaller Text", "Ctrl+-", "All letters a tenth smaller"},
+    ActionText{"view.safe_colors", "Colours for All &Eyes", "",
+               "Colours that colour-blind eyes tell apart", true},
     ActionText{"view.reset", "&Restore Panels", "", "All panels where they were at first"},
-    ActionText{"help.guide", "User &Guide", "F1", "How to work with this window"},
+    ActionText{"help.guide", "&Help on This Panel", "F1",
+               "The user guide's page on the panel in use"},
+    ActionText{"help.commands", "&Find a Command…", "Ctrl+Shift+P",
+               "Search everything that this window can do, and do it"},
+    ActionText{"help.shortcuts", "&Keyboard Shortcuts", "Ctrl+F1", "Every key, on one page"},
+    ActionText{"help.tour", "&Tour", "", "Three things to begin with"},
     ActionText{"help.about", "&About Ghostlight", "", "Version and licence"},
 };
 
@@ -77,8 +91,10 @@ Actions::Actions(QWidget* window) : QObject(window) {
         auto* action = new QAction(QString::fromUtf8(text.text), this);
         action->setObjectName(text.id);
         action->setShortcut(QKeySequence(QString::fromUtf8(text.keys)));
-        action->setStatusTip(QString::fromUtf8(text.tip));
-        action->setToolTip(QString::fromUtf8(text.tip));
+        const QString tip = QString::fromUtf8(text.tip);
+        const QString keys = action->shortcut().toString(QKeySequence::NativeText);
+        action->setStatusTip(tip);
+        action->setToolTip(keys.isEmpty() ? tip : QStringLiteral("%1 (%2)").arg(tip, keys));
         action->setCheckable(text.checkable);
         window->addAction(action);  // keys work even while no menu shows the action
         actions_.insert(text.id, action);

@@ -126,6 +126,33 @@ std::optional<Error> Document::save_as(const std::filesystem::path& file) {
     return std::nullopt;
 }
 
+std::optional<Error> Document::reload() {
+    try {
+        LensFile read = read_lens(file_);
+        DocumentState state = document_from_lens(std::move(read.lens));
+        try {
+            static_cast<void>(configured(state.lens, state_.scene.configuration));
+            state.scene = state_.scene;  // still looked at in the same way
+        } catch (const Error&) {
+            // That configuration is gone: the file's own scene.
+        }
+        notes_ = std::move(read.notes);
+        is_own_file_ = may_be_saved_over(file_);
+        saved_lens_ = state.lens;
+        saved_at_ = {};
+        edit(std::move(state), tr("reload from disk"));
+        Q_EMIT file_changed();
+    } catch (const Error& error) {
+        return error;
+    }
+    return std::nullopt;
+}
+
+void Document::lose_saved() {
+    saved_lens_ = {};
+    Q_EMIT file_changed();
+}
+
 void Document::adopt(DocumentState state, const std::filesystem::path& file) {
     begin(std::move(state), file, {});
     saved_lens_ = {};

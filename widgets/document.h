@@ -58,6 +58,10 @@ class Document : public QObject {
     /// A failing open or save changes nothing and says why.
     [[nodiscard]] std::optional<Error> open(const std::filesystem::path& file);
     [[nodiscard]] std::optional<Error> save_as(const std::filesystem::path& file);
+    /// Reads the file again, as one step of the history: what was in hand can be had back.
+    [[nodiscard]] std::optional<Error> reload();
+    /// The file no longer holds what was read from it: the lens in hand counts as unsaved.
+    void lose_saved();
     /// Takes over a lens that has no file of its own, or not this content on file.
     void adopt(DocumentState state, const std::filesystem::path& file);
 

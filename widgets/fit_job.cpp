@@ -205,9 +205,12 @@ void FitJob::work_on_fit(const Task& task, const std::stop_token& stop) {
                 fit_photo(std::move(pictures[i]), task.setup.photos[i].light, task.lens, notes));
         }
         request.look = [&](const FitLook& look) { look_at(look, task, stop); };
-        const auto report = fit_flare(task.lens, photos, request, stop, [&](double share, double) {
+        const auto tell = [&](double share, double) {
             say([this, share] { Q_EMIT progressed(share); });
-        });
+            std::unique_lock lock(mutex_);
+            resumed_.wait(lock, stop, [this] { return !paused_; });
+        };
+        const auto report = fit_flare(task.lens, photos, request, stop, tell);
         if (report) {
             const auto shared = std::make_shared<const FitReport>(*report);
             say([this, shared] {

@@ -24,24 +24,46 @@ QSurfaceFormat gl_view_format() {
     return format;
 }
 
-bool gl_available() {
-    static const bool available = [] {
-        QOpenGLContext context;
-        context.setFormat(gl_view_format());
-        if (!context.create()) {
-            return false;
-        }
-        QOffscreenSurface surface;
-        surface.setFormat(context.format());
-        surface.create();
-        if (!surface.isValid() || !context.makeCurrent(&surface)) {
-            return false;
-        }
-        const QSurfaceFormat got = context.format();
-        context.doneCurrent();
-        return got.version() >= qMakePair(3, 2);
-    }();
-    return available;
+namespace {
+
+GlSupport try_gl() {
+    GlSupport support;
+    QOpenGLContext context;
+    context.setFormat(gl_view_format());
+    if (!context.create()) {
+        support.reason = GlView::tr("no OpenGL can be had here");
+        return support;
+    }
+    QOffscreenSurface surface;
+    surface.setFormat(context.format());
+    surface.create();
+    if (!surface.isValid() || !context.makeCurrent(&surface)) {
+        support.reason = GlView::tr("OpenGL cannot be started here");
+        return support;
+    }
+    const auto text = [&](GLenum name) {
+        const GLubyte* found = context.functions()->glGetString(name);
+        return found == nullptr ? QString()
+                                : QString::fromUtf8(reinterpret_cast<const char*>(found));
+    };
+    support.renderer = text(GL_RENDERER);
+    support.version = text(GL_VERSION);
+    const auto [major, minor] = context.format().version();
+    support.is_usable = context.format().version() >= qMakePair(3, 2);
+    if (!support.is_usable) {
+        support.reason = GlView::tr("OpenGL is too old here: found %1.%2, expected 3.2 or newer")
+                             .arg(major)
+                             .arg(minor);
+    }
+    context.doneCurrent();
+    return support;
+}
+
+}  // namespace
+
+const GlSupport& gl_support() {
+    static const GlSupport support = try_gl();
+    return support;
 }
 
 class GlView::Surface : public QOpenGLWidget {
@@ -121,10 +143,10 @@ GlView::GlView(QWidget* parent) : QWidget(parent) {
     setMouseTracking(true);
     setFocusPolicy(Qt::ClickFocus);
     setMinimumSize(80, 60);
-    if (gl_available()) {
+    if (gl_support().is_usable) {
         surface_ = new Surface(this);
     } else {
-        failure_ = tr("OpenGL 3.2 is not available here");
+        failure_ = gl_support().reason;
     }
 }
 

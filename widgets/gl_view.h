@@ -11,8 +11,15 @@ namespace ghostlight {
 /// The format of every OpenGL view of the window: core profile, four samples.
 QSurfaceFormat gl_view_format();
 
-/// True when this machine and platform plug-in give an OpenGL context of that format. Tried once.
-bool gl_available();
+/// What OpenGL this machine and platform plug-in give.
+struct GlSupport {
+    bool is_usable = false;  ///< a context of that format can be had
+    QString reason;          ///< why not
+    QString renderer, version;
+};
+
+/// Tried once.
+const GlSupport& gl_support();
 
 /// A widget that draws with OpenGL and, over it, with a QPainter. It takes its own mouse and key
 /// events (the OpenGL surface inside is transparent to them). Where no OpenGL can be had, or a

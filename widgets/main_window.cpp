@@ -3,13 +3,11 @@
 #include <QActionGroup>
 #include <QApplication>
 #include <QCloseEvent>
-#include <QDesktopServices>
 #include <QDockWidget>
 #include <QDropEvent>
 #include <QFile>
 #include <QMenu>
 #include <QMenuBar>
-#include <QMessageBox>
 #include <QMimeData>
 #include <QOpenGLWidget>
 #include <QStatusBar>
@@ -26,6 +24,7 @@
 #include "widgets/autosave.h"
 #include "widgets/certificate_job.h"
 #include "widgets/file_actions.h"
+#include "widgets/flare_view.h"
 #include "widgets/glass_folders.h"
 #include "widgets/models/ghost_table_model.h"
 #include "widgets/models/note_table_model.h"
@@ -70,6 +69,7 @@ MainWindow::MainWindow(bool remembers, MakeGlEngine make_gl)
     connect_engines();
     connect_reports();
     connect_studies();
+    connect_guidance();
     resize(1720, 1000);
     arrange_panels();
     if (remembers_) {
@@ -146,7 +146,7 @@ void MainWindow::build_panels() {
 void MainWindow::build_menus() {
     QMenuBar& bar = *menuBar();
     QMenu* file = bar.addMenu("&File");
-    file->addAction(&actions_["file.open"]);
+    actions_.fill(*file, {"file.open", "file.gallery"});
     QMenu* bundled = file->addMenu("Open &Bundled");
     connect(bundled, &QMenu::aboutToShow, this,
             [this, bundled] { files_->fill_bundled(*bundled); });
@@ -167,12 +167,15 @@ void MainWindow::build_menus() {
                               stop_dock_, light_dock_, report_dock_, fit_dock_, accuracy_dock_}) {
         view->addAction(dock->toggleViewAction());
     }
-    actions_.fill(*view, {"view.reset", "-", "report.all", "report.matters", "report.copy",
-                          "first_order.copy", "-", "view.aspheres", "view.comments", "-",
-                          "view.light_theme"});
+    actions_.fill(*view, {"view.next_panel", "view.previous_panel", "view.reset", "-", "report.all",
+                          "report.matters", "report.copy", "first_order.copy", "-", "view.aspheres",
+                          "view.comments", "-", "view.light_theme", "view.safe_colors",
+                          "view.larger_text", "view.smaller_text"});
     actions_.fill(*view->addMenu("&Draw Flares With"),
                   {"engine.automatic", "engine.cpu", "engine.opengl"});
-    actions_.add_menu(bar, "&Help", {"help.guide", "help.about"});
+    actions_.add_menu(
+        bar, "&Help",
+        {"help.guide", "help.commands", "help.shortcuts", "help.tour", "-", "help.about"});
 }
 
 void MainWindow::arrange_panels() {
@@ -296,12 +299,10 @@ void MainWindow::connect_actions() {
     actions_.on("view.light_theme", [this, &light] {
         const Theme theme = light.isChecked() ? Theme::light : Theme::dark;
         settings::set_theme(theme);
-        apply_theme(*qApp, theme);
+        apply_theme(*qApp, theme, settings::look());
         scene_update_.start();
     });
     connect_absorption();
-    actions_.on("help.about", [this] { show_about(); });
-    actions_.on("help.guide", [this] { show_guide(); });
 }
 
 void MainWindow::set_engine(FlareEngine engine) {
@@ -433,6 +434,10 @@ void MainWindow::show_picture(const FlarePicture& picture) {
     picture_is_on_its_way_ = true;
     flare_->show_image(picture.image);
     flare_->set_dimmed(picture.revision != document_.revision());
+    if (!flare_->view()->has_gl()) {  // no frame is swapped
+        picture_is_on_its_way_ = false;
+        status_->show_picture(picture, 0.0);
+    }
 }
 
 bool MainWindow::show_unknown_glass() {
@@ -465,25 +470,6 @@ void MainWindow::show_title() {
 void MainWindow::place_banner() {
     const QRect around(flare_->mapTo(this, QPoint(0, 0)), flare_->size());
     banner_->set_place(around.adjusted(16, 44, -16, 0));
-}
-
-void MainWindow::show_about() {
-    QMessageBox::about(this, "About Ghostlight",
-                       QStringLiteral("<b>Ghostlight %1</b><p>Lens-flare analysis workbench."
-                                      "<p>BSD 3-clause licence.")
-                           .arg(QCoreApplication::applicationVersion()));
-}
-
-void MainWindow::show_guide() {
-    try {
-        const auto guide = data_directory().parent_path() / "docs" / "user-guide.md";
-        if (std::filesystem::exists(guide)) {
-            QDesktopServices::openUrl(QUrl::fromLocalFile(QString::fromStdString(guide.string())));
-            return;
-        }
-    } catch (const Error&) {
-    }
-    banner_->show_text("guide", "The user guide, docs/user-guide.md, is not installed here.");
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

@@ -42,6 +42,8 @@ class MainWindow : public QMainWindow {
     ~MainWindow() override;
 
     bool open(const std::filesystem::path& file);
+    /// For a start without a lens: the first time a bundled one is opened, and the tour begins.
+    void welcome();
     /// What flares are drawn with, until it is chosen anew; not kept.
     void set_engine(FlareEngine engine);
     /// All panels where they were at first, in proportion to the window.
@@ -93,6 +95,13 @@ class MainWindow : public QMainWindow {
     void connect_absorption();
     void connect_reports();
     void offer_recovery();
+    /// Help, commands, tour, gallery, keyboard and looks: main_window_guidance.cpp.
+    void connect_guidance();
+    void connect_looks();
+    void show_guide();
+    void show_commands();
+    void show_gallery();
+    void go_to_panel(int step);
     void show_scene();
     void show_picture(const FlarePicture& picture);
     void show_failure(const QString& reason);
@@ -100,8 +109,6 @@ class MainWindow : public QMainWindow {
     bool show_unknown_glass();
     void show_title();
     void place_banner();
-    void show_about();
-    void show_guide();
     QDockWidget* add_dock(QWidget* panel, const char* name, const QString& title,
                           Qt::DockWidgetArea area);
 

@@ -28,6 +28,16 @@ inline Palette light_palette() {
             QColor(0x0b, 0x78, 0x89), QColor(0xc4, 0x3d, 0x1c)};
 }
 
+/// The same grounds with roles that protanopes, deuteranopes and tritanopes tell apart too: yellow,
+/// blue and vermilion on dark; on light, darker ones that letters can be written in.
+inline Palette safe_palette(Palette usual) {
+    const bool is_dark = usual.panel.lightness() < 128;
+    usual.amber = is_dark ? QColor(0xf5, 0xd9, 0x4a) : QColor(0x88, 0x6a, 0x00);
+    usual.teal = is_dark ? QColor(0x4a, 0xa3, 0xf0) : QColor(0x0a, 0x58, 0xca);
+    usual.red_orange = is_dark ? QColor(0xe8, 0x68, 0x4a) : QColor(0xa3, 0x12, 0x3a);
+    return usual;
+}
+
 /// The palette in use; widgets read it when they paint.
 inline Palette& current_palette() {
     static Palette palette = dark_palette();

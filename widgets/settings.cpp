@@ -3,6 +3,8 @@
 #include <QDir>
 #include <QSettings>
 
+#include <algorithm>
+
 namespace ghostlight::settings {
 
 QStringList recent_files() { return QSettings().value("recent_files").toStringList(); }
@@ -29,6 +31,30 @@ Theme theme() {
 
 void set_theme(Theme theme) {
     QSettings().setValue("theme", theme == Theme::light ? "light" : "dark");
+}
+
+Look look() {
+    const QSettings stored;
+    return {
+        std::clamp(stored.value("text_scale", 1.0).toDouble(), least_text_scale, most_text_scale),
+        stored.value("safe_colors", false).toBool()};
+}
+
+void set_look(const Look& look) {
+    QSettings stored;
+    stored.setValue("text_scale", look.text_scale);
+    stored.setValue("safe_colors", look.safe_colors);
+}
+
+bool tour_is_due() { return !QSettings().value("tour_seen", false).toBool(); }
+
+void set_tour_seen() { QSettings().setValue("tour_seen", true); }
+
+bool is_news(const QString& remark) {
+    QSettings stored;
+    const bool is_new = stored.value("told").toString() != remark;
+    stored.setValue("told", remark);
+    return is_new;
 }
 
 FlareEngine flare_engine() {

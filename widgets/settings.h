@@ -19,6 +19,16 @@ void forget_recent_file(const QString& file);
 Theme theme();
 void set_theme(Theme theme);
 
+Look look();
+void set_look(const Look& look);
+
+/// The tour comes by itself once.
+bool tour_is_due();
+void set_tour_seen();
+
+/// Remembers a remark on this machine; true if it is another than the one told last.
+bool is_news(const QString& remark);
+
 /// What flares are drawn with.
 FlareEngine flare_engine();
 void set_flare_engine(FlareEngine engine);

@@ -19,6 +19,7 @@
 #include "widgets/main_window.h"
 #include "widgets/models/ghost_table_model.h"
 #include "widgets/panels/banner.h"
+#include "widgets/panels/flare_panel.h"
 #include "widgets/panels/ghost_panel.h"
 
 namespace ghostlight {
@@ -50,17 +51,23 @@ int hidden_height_px(const QWidget& panel) {
                   : 0;
 }
 
-/// The panels that share a place, where only one is seen: each whole, as panel_NAME.png.
-void write_tabbed_panels(MainWindow& window, const std::filesystem::path& folder) {
+/// The panels that share a place, where only one is seen, or all there are: each whole, as
+/// panel_NAME.png.
+void write_panels(MainWindow& window, const std::filesystem::path& folder, SnapshotPanels which) {
     constexpr int highest_px = 2000;
     const QByteArray places = window.saveState();
-    QList<QDockWidget*> tabbed;
+    const bool every = which == SnapshotPanels::every;
+    if (every) {
+        write_picture(window.flare_panel(), folder / "panel_flare.png");
+    }
+    QList<QDockWidget*> wanted_docks;
     for (QDockWidget* dock : window.findChildren<QDockWidget*>()) {
-        if (!dock->isHidden() && !window.tabifiedDockWidgets(dock).isEmpty()) {
-            tabbed << dock;
+        if (every || (!dock->isHidden() && !window.tabifiedDockWidgets(dock).isEmpty())) {
+            wanted_docks << dock;
         }
     }
-    for (QDockWidget* dock : tabbed) {
+    for (QDockWidget* dock : wanted_docks) {
+        dock->show();
         dock->raise();
         run_events(drawing_ms);
         const QSize size = dock->size();
@@ -89,7 +96,8 @@ bool wait_until_settled(MainWindow& window, int limit_ms) {
     return true;
 }
 
-void write_snapshot(MainWindow& window, const std::filesystem::path& folder) {
+void write_snapshot(MainWindow& window, const std::filesystem::path& folder,
+                    SnapshotPanels panels) {
     std::error_code failure;
     std::filesystem::create_directories(folder, failure);
     if (failure) {
@@ -100,7 +108,7 @@ void write_snapshot(MainWindow& window, const std::filesystem::path& folder) {
     }
     run_events(drawing_ms);
     write_picture(window, folder / "workbench.png");
-    write_tabbed_panels(window, folder);
+    write_panels(window, folder, panels);
     const auto table = window.ghost_panel().model().table();
     if (!table || window.ghost_panel().model().is_stale() || !window.picture()) {
         throw Error(window.banner().text().isEmpty() ? std::string("there is nothing to show")

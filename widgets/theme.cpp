@@ -13,6 +13,9 @@ namespace ghostlight {
 
 namespace {
 
+/// At 96 dpi; a point size would follow a display's odd physical resolution.
+constexpr int usual_text_px = 13;
+
 QColor mixed(const QColor& a, const QColor& b, double share_of_b) {
     const auto channel = [&](int from, int to) { return qRound(from + (to - from) * share_of_b); };
     return {channel(a.red(), b.red()), channel(a.green(), b.green()), channel(a.blue(), b.blue())};
@@ -108,6 +111,15 @@ QToolButton[quiet="true"]:disabled { color: @faint; }
 #refusal { background: @ground; color: @warning; border: 1px solid @warning;
     border-radius: 4px; padding: 6px 8px; }
 #banner { background: @ground; border: 1px solid @warning; border-radius: 4px; }
+#tour { background: @ground; border: 1px solid @teal; border-radius: 4px; }
+#command_palette { background: @line; }
+#command_palette QLineEdit { background: @ground; border: none; }
+#command_palette QListWidget { border: none; border-top: 1px solid @line; }
+#gallery QListWidget { border: none; background: @ground; }
+#gallery QListWidget::item { border: 1px solid transparent; border-radius: 4px; padding: 4px; }
+#gallery QListWidget::item:hover { border-color: @faint; }
+#gallery QListWidget::item:selected { border-color: @teal; background: @selection; color: @text; }
+#help QTextBrowser { background: @panel; selection-background-color: @selection; }
 )");
     const std::pair<const char*, QColor> roles[] = {
         {"@ground", colors.ground},
@@ -137,22 +149,22 @@ class QuietStyle : public QProxyStyle {
     }
 };
 
-QFont interface_font() {
+QFont interface_font(double scale) {
     QFont font = QFontDatabase::systemFont(QFontDatabase::GeneralFont);
     if (QFontDatabase::families().contains("Inter")) {
         font.setFamily("Inter");
     }
-    // 13 px at 96 dpi; a point size would follow a display's odd physical resolution.
-    font.setPixelSize(13);
+    font.setPixelSize(qRound(usual_text_px * scale));
     return font;
 }
 
 }  // namespace
 
-void apply_theme(QApplication& application, Theme theme) {
-    current_palette() = theme == Theme::dark ? dark_palette() : light_palette();
+void apply_theme(QApplication& application, Theme theme, const Look& look) {
+    const Palette usual = theme == Theme::dark ? dark_palette() : light_palette();
+    current_palette() = look.safe_colors ? safe_palette(usual) : usual;
     QApplication::setStyle(new QuietStyle);
-    QApplication::setFont(interface_font());
+    QApplication::setFont(interface_font(look.text_scale));
     QApplication::setPalette(qt_palette(current_palette()));
     application.setStyleSheet(style_sheet(current_palette()));
 }

@@ -10,6 +10,7 @@
 #include <QOpenGLFunctions>
 #include <QPainter>
 
+#include "widgets/actor_painter.h"
 #include "widgets/palette.h"
 
 namespace ghostlight {
@@ -60,9 +61,16 @@ void VtkView::release_gl() {
 void VtkView::paint_without_gl(QPainter& painter) {
     const Palette& colors = current_palette();
     painter.fillRect(rect(), colors.panel);
+    prepare_rendering(width(), height());
     painter.setPen(colors.dim);
-    painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap,
-                     tr("There is no picture here: %1.").arg(gl_failure()));
+    if (paint_actors(painter, *renderer_, size())) {
+        painter.drawText(rect().adjusted(8, 6, -8, -6), Qt::AlignLeft | Qt::AlignBottom,
+                         tr("drawn without OpenGL: %1").arg(gl_failure()));
+    } else {
+        painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap,
+                         tr("There is no picture here: %1.").arg(gl_failure()));
+    }
+    paint_overlay(painter);
 }
 
 }  // namespace ghostlight

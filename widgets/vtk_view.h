@@ -11,7 +11,8 @@ class vtkRenderer;
 namespace ghostlight {
 
 /// A view whose content is a VTK renderer. VTK draws into framebuffers of its own and copies the
-/// result into the widget's; Qt's window, context and events stay Qt's.
+/// result into the widget's; Qt's window, context and events stay Qt's. Without OpenGL the same
+/// actors are painted by QPainter.
 class VtkView : public GlView {
     Q_OBJECT
    public:
@@ -21,7 +22,8 @@ class VtkView : public GlView {
     vtkRenderer* renderer() { return renderer_; }
 
    protected:
-    /// Called before each rendering, with the size in device pixels.
+    /// Called before each rendering, with the size in device pixels. Sets up the camera: there may
+    /// be no render window.
     virtual void prepare_rendering(int width_px, int height_px) = 0;
 
     void init_gl() override;

@@ -20,7 +20,7 @@ struct SynthOptions {
     LensOptions lens;
     LightOptions light{.field = "0"};
     SpectrumOptions spectrum{.wavelength = {}, .spectrum = "D65"};
-    std::string width = "720", samples = "31", exposure = "auto", gains = "1,1,1", shading = "0",
+    std::string width = "720", tolerance = "0.01", exposure = "auto", gains = "1,1,1", shading = "0",
                 noise = "0", read_noise = "0", background = "0", offset = "0,0", bits, seed = "1";
     std::string file;
 };
@@ -51,8 +51,9 @@ void run(const SynthOptions& options) {
     request.spectrum = spectrum_of(spectrum);
     request.width_px = static_cast<int>(integer_value(
         "--width", options.width, "a whole number of pixels from 16 to 16384", 16, 16384));
-    request.spectral_samples = static_cast<int>(
-        integer_value("--samples", options.samples, "a whole number from 3 to 301", 3, 301));
+    request.tolerance =
+        number_value("--tolerance", options.tolerance, "a number from 1e-5 to 0.5",
+                     [](double value) { return value >= 1e-5 && value <= 0.5; });
     if (options.exposure != "auto")
         request.exposure_ev =
             number_value("--exposure", options.exposure, "auto, or stops from -64 to 64",
@@ -119,7 +120,8 @@ void add_synth(CLI::App& program) {
         ->required();
     add_text(*command, "--width", options->width, "PX", "of the photograph, pixels")
         ->capture_default_str();
-    add_text(*command, "--samples", options->samples, "N", "wavelengths of the reference picture")
+    add_text(*command, "--tolerance", options->tolerance, "X",
+             "L1 error of the reference picture over its light")
         ->capture_default_str();
     add_text(*command, "--exposure", options->exposure, "EV|auto",
              "log2 of the value of the light's own irradiance, 1 being saturation; auto: the\n"

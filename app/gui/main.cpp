@@ -2,6 +2,7 @@
 
 #include <QApplication>
 #include <QCommandLineParser>
+#include <QIcon>
 #include <QLocale>
 #include <QSurfaceFormat>
 
@@ -20,10 +21,6 @@
 #include "widgets/snapshot.h"
 #include "widgets/theme.h"
 
-#ifndef GHOSTLIGHT_VERSION
-#define GHOSTLIGHT_VERSION "0.1.0"
-#endif
-
 namespace {
 
 constexpr int bad_usage = 2;
@@ -34,6 +31,7 @@ Opens the lens-flare workbench, on a lens file if one is given.
 
   --snapshot DIR  open LENS, wait until all views are ready, write workbench.png, the tabbed
                   panels (panel_NAME.png), ghosts.csv and flare.exr into DIR, and exit
+  --every-panel   with --snapshot: every panel, not the tabbed ones alone
   --theme NAME    dark or light, this time
   --ghost PAIR    a ghost to select at first, e.g. 5-3
   --engine NAME   what draws flares, this time: automatic, cpu or opengl
@@ -99,10 +97,11 @@ int run(QApplication& application, const QCommandLineParser& options) {
     if (options.isSet("theme") && theme != "dark" && theme != "light") {
         return fail("--theme: found " + theme.toStdString() + ", expected dark or light");
     }
-    ghostlight::apply_theme(application, theme == "light" ? ghostlight::Theme::light
-                                         : theme == "dark" || snapshot
-                                             ? ghostlight::Theme::dark
-                                             : ghostlight::settings::theme());
+    ghostlight::apply_theme(application,
+                            theme == "light"              ? ghostlight::Theme::light
+                            : theme == "dark" || snapshot ? ghostlight::Theme::dark
+                                                          : ghostlight::settings::theme(),
+                            snapshot ? ghostlight::Look() : ghostlight::settings::look());
     ghostlight::MainWindow window(!snapshot);
     if (engine) {
         window.set_engine(*engine);
@@ -123,9 +122,12 @@ int run(QApplication& application, const QCommandLineParser& options) {
     }
     window.show();
     if (!snapshot) {
+        window.welcome();
         return QApplication::exec();
     }
-    ghostlight::write_snapshot(window, options.value("snapshot").toStdString());
+    ghostlight::write_snapshot(window, options.value("snapshot").toStdString(),
+                               options.isSet("every-panel") ? ghostlight::SnapshotPanels::every
+                                                            : ghostlight::SnapshotPanels::tabbed);
     return 0;
 }
 
@@ -143,12 +145,18 @@ int main(int argc, char** argv) {
             return 0;
         }
     }
+    // X11, through XWayland where need be: VTK's OpenGL here is GLX.
+    if (qEnvironmentVariableIsSet("DISPLAY") && !qEnvironmentVariableIsSet("QT_QPA_PLATFORM")) {
+        qputenv("QT_QPA_PLATFORM", "xcb");
+    }
     set_surface_format();
     QApplication application(argc, argv);
     QCoreApplication::setApplicationName("ghostlight");
     QCoreApplication::setOrganizationName("ghostlight");
     QCoreApplication::setApplicationVersion(GHOSTLIGHT_VERSION);
     QGuiApplication::setApplicationDisplayName("Ghostlight");
+    QGuiApplication::setDesktopFileName("io.github.ghostlight.Ghostlight");
+    QGuiApplication::setWindowIcon(QIcon(":/ghostlight/icon.svg"));
     // Numbers here have a decimal point, in files and on screen; Qt has just asked the machine.
     QLocale::setDefault(QLocale::c());
     std::setlocale(LC_NUMERIC, "C");
@@ -157,6 +165,7 @@ int main(int argc, char** argv) {
     options.addOptions({{"snapshot", "", "DIR"},
                         {"size", "", "WxH"},
                         {"engine", "", "NAME"},
+                        {"every-panel", ""},
                         {"theme", "", "NAME"},
                         {"ghost", "", "PAIR"}});
     options.addPositionalArgument("LENS", "");

@@ -41,6 +41,11 @@ double spline_correlation(int lag) {
     }
 }
 
+double shared_noise() {
+    const double along = 1.0 + 2.0 * (spline_correlation(1) + spline_correlation(2));
+    return along * along;
+}
+
 FitData fit_data(const Photo& photo, const PhotoPlace& place, double sensor_width_mm,
                  double sensor_height_mm, int across) {
     const double pitch_mm = place.pitch_mm(photo);
@@ -119,10 +124,11 @@ FitData fit_data(const Photo& photo, const PhotoPlace& place, double sensor_widt
     return data;
 }
 
-StableScale stable_scale(const FitData& data, std::size_t sample, double model_error) {
-    const double n = data.inverse_count[sample];
-    return {.shot = n * data.noise.shot,
-            .read = std::max(n * data.noise.read, 1e-18),
+StableScale stable_scale(const FitData& data, std::size_t sample, double model_error, double dim) {
+    const double shot = data.inverse_count[sample] * data.noise.shot, of_model = model_error * dim;
+    return {.shot = shot,
+            .read = std::max({data.inverse_count[sample] * data.noise.read, shot * shot,
+                              of_model * of_model, 1e-18}),
             .error = std::max(model_error, 1e-6)};
 }
 

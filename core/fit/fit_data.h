@@ -20,6 +20,10 @@ inline constexpr double spline_reach = 1.5;
 /// than a sample.
 double spline_correlation(int lag);
 
+/// χ² of all samples over that of as many independent ones, for a smooth signal: (Σ correlation)²
+/// over both axes.
+double shared_noise();
+
 /// A photograph on the fit's scale: the mean of the linear photograph under a spline about each
 /// sample, samples being the middles of the pixels of a coarse picture of the sensor.
 struct FitData {
@@ -48,13 +52,15 @@ FitData fit_data(const Photo& photo, const PhotoPlace& place, double sensor_widt
                  double sensor_height_mm, int across);
 
 /// The scale on which noise and the model's own error are alike everywhere:
-/// ∫ dy / σ(y), σ² = n (shot y + read) + (error y)², continued straight below 0; and σ.
+/// ∫ dy / σ(y), σ² = n (shot y + read) + (error y)², continued straight below 0; and σ. In the dark
+/// σ is at least one photon's, and the model's error at `dim`: without that, a picture without read
+/// noise would count a hair's breadth below 0 as ten thousand σ.
 struct StableScale {
     double shot = 0.0, read = 0.0;  ///< of a sample
     double error = 0.0;             ///< relative, of the model
     double at(double value) const;
     double sigma(double value) const;
 };
-StableScale stable_scale(const FitData& data, std::size_t sample, double model_error);
+StableScale stable_scale(const FitData& data, std::size_t sample, double model_error, double dim);
 
 }  // namespace ghostlight

@@ -6,6 +6,10 @@
 namespace ghostlight {
 namespace {
 
+bool all_finite(const double* values, std::size_t count) {
+    return std::all_of(values, values + count, [](double each) { return std::isfinite(each); });
+}
+
 /// The three residuals of a sample.
 class SampleCost final : public ceres::CostFunction {
    public:
@@ -18,9 +22,12 @@ class SampleCost final : public ceres::CostFunction {
     bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
         const double* from = &evaluator_.residuals(photo_)[3 * sample_];
         std::copy(from, from + 3, residuals);
+        // Refused here, a point that is no number is stepped back from without a word on stderr.
+        if (!all_finite(residuals, 3)) return false;
         if (jacobians != nullptr && jacobians[0] != nullptr) {
             const double* by = &evaluator_.jacobian(photo_)[3 * sample_ * count_];
             std::copy(by, by + 3 * count_, jacobians[0]);
+            return all_finite(by, 3 * count_);
         }
         return true;
     }

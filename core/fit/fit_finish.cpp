@@ -104,7 +104,6 @@ FitRun::Unmixed FitRun::unmixed(std::size_t photo) {
     const Eigen::VectorXd gains = non_negative_least_squares(small, target);
     const Eigen::MatrixXd inverse = small.ldlt().solve(Eigen::MatrixXd::Identity(m, m));
     // Neighbouring samples share noise: (Σ correlation)² over the picture.
-    const double shared = 1.0 + 2.0 * (spline_correlation(1) + spline_correlation(2));
     result.gains = Eigen::VectorXd::Zero(n);
     result.errors = Eigen::VectorXd::Zero(n);
     for (std::size_t a = 0; a < count; ++a)
@@ -112,7 +111,7 @@ FitRun::Unmixed FitRun::unmixed(std::size_t photo) {
             if (groups(static_cast<Eigen::Index>(a), h) > 0.0) {
                 result.gains(static_cast<Eigen::Index>(a)) = gains(h);
                 result.errors(static_cast<Eigen::Index>(a)) =
-                    shared * std::sqrt(std::max(0.0, inverse(h, h)));
+                    std::sqrt(shared_noise() * std::max(0.0, inverse(h, h)));
             }
     for (const std::size_t g : result.ghosts) result.signals.push_back(found[g]);
     return result;
@@ -149,6 +148,7 @@ FitReport FitRun::finish() {
                        .evaluator = *evaluator_,
                        .covariance = known,
                        .start_errors = start_errors_,
+                       .other_minima = other_minima_,
                        .loss_scale = request_.loss_scale};
     fill_numbers(outcome, report);
     for (std::size_t i = 0; i < views_.size(); ++i) {
@@ -224,7 +224,6 @@ void FitRun::suggest(const Eigen::MatrixXd& known) {
             ghost_picture(bases, weights, like.data.frame, count, true, request_.threads);
         // Gains are unknown there too.
         Eigen::MatrixXd h = Eigen::MatrixXd::Zero(n + 3, n + 3);
-        const double shared = 1.0 + 2.0 * (spline_correlation(1) + spline_correlation(2));
         Eigen::VectorXd row(n + 3);
         for (std::size_t s = 0; s < like.data.samples(); ++s) {
             if (!like.data.used[s]) continue;
@@ -237,7 +236,7 @@ void FitRun::suggest(const Eigen::MatrixXd& known) {
                     row(static_cast<Eigen::Index>(p)) =
                         inverse * gain * from[1 + p] * layout_.coatings[p].prior;
                 row(n + static_cast<Eigen::Index>(c)) = inverse * gain * from[0];
-                h.selfadjointView<Eigen::Lower>().rankUpdate(row, 1.0 / (shared * shared));
+                h.selfadjointView<Eigen::Lower>().rankUpdate(row, 1.0 / shared_noise());
             }
         }
         h = Eigen::MatrixXd(h.selfadjointView<Eigen::Lower>());

@@ -13,6 +13,9 @@ namespace ghostlight {
 namespace {
 
 constexpr double sigmas_of_95_percent = 1.96;
+/// Another minimum with this share of the probability is inside of a 95 % interval; with this one
+/// it is named.
+constexpr double interval_share = 0.025, told_share = 0.01;
 /// χ² a residual above which the model does not fit within its errors, and above which it does not
 /// explain the photograph at all.
 constexpr double well = 1.5, poor = 6.0;
@@ -99,12 +102,60 @@ void fill_misfit(const FitOutcome& outcome, FitReport& report) {
     report.error_scale = std::sqrt(std::max(1.0, report.outliers > 0.3 ? all : scatter));
 }
 
+namespace {
+
+/// The minima that the photographs do not exclude, with their shares, and what to say of them.
+void fill_other_minima(const FitOutcome& outcome, FitReport& report) {
+    double all = 1.0;
+    for (const FitMinimum& each : outcome.other_minima) {
+        const double chi2 = std::max(0.0, each.cost) / (report.error_scale * report.error_scale);
+        report.other_minima.push_back({.chi2_above = chi2, .share = std::exp(-0.5 * chi2)});
+        all += report.other_minima.back().share;
+    }
+    for (std::size_t k = 0; k < report.other_minima.size(); ++k) {
+        report.other_minima[k].share /= all;
+        if (report.other_minima[k].share < told_share) continue;
+        std::string text;
+        for (std::size_t p = 0; p < outcome.layout.coatings.size(); ++p) {
+            const FitParameter& each = outcome.layout.coatings[p];
+            const double here = outcome.evaluator.x[p], there = outcome.other_minima[k].x[p];
+            // What moves by less than its own error tells nothing of the other place.
+            const auto at = static_cast<Eigen::Index>(p);
+            if (std::abs(there - here) <
+                2.0 * report.error_scale * std::sqrt(outcome.covariance(at, at)))
+                continue;
+            text += fmt::format("{}{} {:.4g} instead of {:.4g} {}", text.empty() ? "" : ", ",
+                                name(each), each.start + each.prior * there,
+                                each.start + each.prior * here, unit(each));
+        }
+        if (!text.empty())
+            report.remarks.push_back(fmt::format(
+                "Ambiguous: {} explains the photographs nearly as well (chi-squared higher by "
+                "{:.2g}, {:.2g} % of the odds); the errors allow for it. Another light angle tells "
+                "them apart.",
+                text, report.other_minima[k].chi2_above, 100.0 * report.other_minima[k].share));
+    }
+}
+
+}  // namespace
+
 void fill_numbers(const FitOutcome& outcome, FitReport& report) {
     fill_misfit(outcome, report);
     const FitLayout& layout = outcome.layout;
     const std::size_t count = layout.lens_count();
     const auto n = static_cast<Eigen::Index>(count);
-    const Eigen::MatrixXd known = outcome.covariance.topLeftCorner(n, n);
+    Eigen::MatrixXd known = outcome.covariance.topLeftCorner(n, n);
+    const Eigen::VectorXd narrow = known.diagonal().cwiseSqrt();
+    fill_other_minima(outcome, report);
+    for (std::size_t k = 0; k < report.other_minima.size(); ++k) {
+        Eigen::VectorXd away(n);
+        for (Eigen::Index p = 0; p < n; ++p)
+            away(p) = outcome.other_minima[k].x[static_cast<std::size_t>(p)] -
+                      outcome.evaluator.x[static_cast<std::size_t>(p)];
+        // Errors are scaled by the misfit below; these distances are not.
+        known += report.other_minima[k].share / (report.error_scale * report.error_scale) * away *
+                 away.transpose();
+    }
     for (std::size_t p = 0; p < count; ++p) {
         const bool coating = p < layout.coatings.size();
         FittedNumber number;
@@ -122,6 +173,15 @@ void fill_numbers(const FitOutcome& outcome, FitReport& report) {
             std::max(parameter.lower, number.value - sigmas_of_95_percent * number.standard_error);
         number.high =
             std::min(parameter.upper, number.value + sigmas_of_95_percent * number.standard_error);
+        for (std::size_t k = 0; k < report.other_minima.size(); ++k) {
+            const double there = parameter.start + parameter.prior * outcome.other_minima[k].x[p];
+            number.other_values.push_back(there);
+            if (report.other_minima[k].share < interval_share) continue;
+            const double reach =
+                sigmas_of_95_percent * report.error_scale * narrow(at) * parameter.prior;
+            number.low = std::max(parameter.lower, std::min(number.low, there - reach));
+            number.high = std::min(parameter.upper, std::max(number.high, there + reach));
+        }
         number.start_error =
             at < outcome.start_errors.size() ? outcome.start_errors(at) * parameter.prior : 0.0;
         const double margin = 1e-3 * (parameter.upper - parameter.lower);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 
+#include "core/fit/coating_search.h"
 #include "core/fit/fit_evaluator.h"
 #include "core/fit/flare_fit.h"
 
@@ -14,6 +15,8 @@ struct FitOutcome {
     FitEvaluator& evaluator;            ///< with residuals, models and Jacobians there
     const Eigen::MatrixXd& covariance;  ///< of all unknowns, in units of their priors
     const Eigen::VectorXd& start_errors;
+    /// Besides the one taken; their costs are χ² above its own.
+    const std::vector<FitMinimum>& other_minima;
     double loss_scale = 4.0;
 };
 

@@ -10,13 +10,28 @@
 #include "core/parallel.h"
 
 namespace ghostlight {
+namespace {
+
+/// Geometry is linearised again until it stays, but not more often than this; places, which are
+/// known beforehand to a few priors, stay after one.
+constexpr int most_linearisations = 4, first_linearisations = 1;
+
+}  // namespace
+
 FitReport FitRun::run() {
     const auto began = Clock::now();
     prepare();
     build();
     look_at_start();
+    share_ = 0.2;
     solve_coatings();
-    settle();
+    share_ = 0.4;
+    settle(first_linearisations);
+    share_ = 0.6;
+    const bool elsewhere = explore_coatings();
+    share_ = 0.8;
+    if (elsewhere) settle(first_linearisations);
+    if (!layout_.geometry.empty()) settle(most_linearisations);
     FitReport report = finish();
     report.basis_ms = basis_ms_;
     report.seconds = 1e-3 * ms_since(began);
@@ -69,18 +84,20 @@ void FitRun::prepare() {
         view.data = fit_data(each.photo, each.place, listed_.lens.sensor.width_mm,
                              listed_.lens.sensor.height_mm, request_.across);
         view.light = each.light;
-        view.stable.resize(3 * view.data.samples());
         std::vector<double> levels;
-        for (std::size_t s = 0; s < view.data.samples(); ++s) {
-            view.scales.push_back(stable_scale(view.data, s, request_.model_error));
-            for (std::size_t c = 0; c < 3; ++c) {
-                view.stable[3 * s + c] = view.scales[s].at(view.data.value[3 * s + c]);
-                if (view.data.used[s]) levels.push_back(view.data.value[3 * s + c]);
-            }
-        }
+        for (std::size_t s = 0; s < view.data.samples(); ++s)
+            for (std::size_t c = 0; c < 3 && view.data.used[s]; ++c)
+                levels.push_back(view.data.value[3 * s + c]);
         const auto place = levels.begin() + static_cast<std::ptrdiff_t>(levels.size() * 9 / 10);
         std::ranges::nth_element(levels, place);
         view.background_unit = std::max(0.1 * *place, 1e-9);
+        view.stable.resize(3 * view.data.samples());
+        for (std::size_t s = 0; s < view.data.samples(); ++s) {
+            view.scales.push_back(
+                stable_scale(view.data, s, request_.model_error, view.background_unit));
+            for (std::size_t c = 0; c < 3; ++c)
+                view.stable[3 * s + c] = view.scales[s].at(view.data.value[3 * s + c]);
+        }
         if (layout_.count() >= 3 * view.data.count * photos_.size())
             throw Error({.problem = "there are more unknowns than data",
                          .file = each.photo.file,

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/fit/coating_search.h"
 #include "core/fit/fit_evaluator.h"
 #include "core/fit/fit_report.h"
 #include "core/fit/fit_statistics.h"
@@ -59,12 +60,13 @@ class FitRun {
     double explained();
     double solve(int iterations);
     void solve_coatings();
-    /// Tries each centre wavelength elsewhere, alone, with a few iterations for the others to
-    /// follow: local minima of one surface, of which a reflectance that rises to either side of its
-    /// centre has at least two.
-    bool jump_centers();
-    /// Linearises geometry and place again until they stay.
-    void settle();
+    /// Looks for better minima about the best of the first guesses, and keeps those that explain
+    /// the photographs nearly as well. True when it ends at another one.
+    bool explore_coatings();
+    void stand_at(const FitMinimum& minimum);
+    FitMinimum standing() const;
+    /// Linearises geometry and place again until they stay, or so many times.
+    void settle(int most_linearisations);
     bool is_linearised(std::size_t k) const;
     std::vector<double> shares(std::size_t photo);
     struct Unmixed {
@@ -96,7 +98,9 @@ class FitRun {
     std::vector<Eigen::VectorXd> start_gains_;
     Eigen::VectorXd start_errors_;
     FitReport report_;
-    double basis_ms_ = 0.0, cost_ = 0.0;
+    /// Besides the one taken; their costs are χ² above its own.
+    std::vector<FitMinimum> other_minima_;
+    double basis_ms_ = 0.0, cost_ = 0.0, share_ = 0.0;
     std::size_t kept_ = 0;
     std::optional<std::vector<GhostPath>> kept_paths_;
 };

@@ -1,15 +1,13 @@
 #include "core/fit/fit_run.h"
 
-#include <ceres/ceres.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "core/elapsed.h"
 #include "core/error.h"
+#include "core/fit/fit_descent.h"
 #include "core/parallel.h"
 
 namespace ghostlight {
@@ -17,14 +15,14 @@ namespace {
 
 /// Places and geometry are linearised again until they move by less than this, in priors.
 constexpr double settled = 0.02;
-constexpr int most_linearisations = 4;
 constexpr double field_step_deg = 0.02;
 constexpr double geometry_step = 0.3;  ///< of a prior
 /// First guesses for all λ0 together, nm.
 constexpr std::array<double, 5> alike_nm = {550.0, 490.0, 620.0, 440.0, 690.0};
-constexpr int start_iterations = 8, final_iterations = 30, jump_iterations = 4;
-/// A jump must lower the cost by so much to be more than rounding.
-constexpr double least_gain = 0.5;
+constexpr int start_iterations = 10, final_iterations = 30, jump_iterations = 8;
+/// Minima whose χ² is higher by more than this are excluded: their odds are 1 : 400.
+constexpr double most_chi2_above = 12.0;
+constexpr std::size_t most_minima = 5;
 
 }  // namespace
 
@@ -106,23 +104,7 @@ void FitRun::linearise() {
     evaluator_->linearised_at = evaluator_->x;
 }
 
-double FitRun::cost_now() {
-    evaluator_->PrepareForEvaluation(false, true);
-    const auto rho = make_loss(request_.loss, request_.loss_scale);
-    double cost = 0.0;
-    for (std::size_t i = 0; i < views_.size(); ++i)
-        for (std::size_t s = 0; s < views_[i].data.samples(); ++s) {
-            if (!views_[i].data.used[s]) continue;
-            double squares = 0.0;
-            for (std::size_t c = 0; c < 3; ++c)
-                squares += std::pow(evaluator_->residuals(i)[3 * s + c], 2);
-            double out[3] = {squares, 1.0, 0.0};
-            if (rho) rho->Evaluate(squares, out);
-            cost += 0.5 * out[0];
-        }
-    for (const double each : evaluator_->x) cost += 0.5 * each * each;
-    return cost;
-}
+double FitRun::cost_now() { return cost_of(*evaluator_, request_.loss, request_.loss_scale); }
 
 double FitRun::explained() {
     double left = 0.0, all = 0.0;
@@ -141,51 +123,41 @@ double FitRun::explained() {
 
 double FitRun::solve(int iterations) {
     check_stop();
-    const auto problem = fit_problem(*evaluator_, request_.loss, request_.loss_scale);
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-    options.max_num_iterations = iterations;
-    options.function_tolerance = 1e-8;
-    options.parameter_tolerance = 1e-8;
-    options.logging_type = ceres::SILENT;
-    options.num_threads = 1;
-    options.update_state_every_iteration = static_cast<bool>(request_.look);
-    struct Watch final : ceres::IterationCallback {
-        FitRun& fit;
-        explicit Watch(FitRun& of) : fit(of) {}
-        ceres::CallbackReturnType operator()(const ceres::IterationSummary& s) override {
-            fit.cost_ = s.cost;
-            fit.report_.cost_curve.push_back(s.cost);
-            fit.tell(0.5);
-            if (fit.request_.look) fit.show_look();
-            return fit.stop_.stop_requested() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
-                                              : ceres::SOLVER_CONTINUE;
-        }
-    } watch(*this);
-    options.callbacks.push_back(&watch);
-    ceres::Solver::Summary summary;
     const auto began = Clock::now();
-    ceres::Solve(options, problem.get(), &summary);
-    const int done = std::max(1, static_cast<int>(summary.iterations.size()) - 1);
-    report_.iterations += done;
-    report_.iteration_ms = ms_since(began) / done;
-    // A failed solve has a cost of -1, which must not pass for the lowest.
-    return summary.IsSolutionUsable() ? summary.final_cost
-                                      : std::numeric_limits<double>::infinity();
+    const Descent descent =
+        descend(*evaluator_, request_.loss, request_.loss_scale, iterations, [&](double cost) {
+            cost_ = cost;
+            report_.cost_curve.push_back(cost);
+            tell(share_);
+            if (request_.look) show_look();
+            return !stop_.stop_requested();
+        });
+    report_.iterations += descent.iterations;
+    report_.iteration_ms = ms_since(began) / descent.iterations;
+    check_stop();
+    return descent.cost;
+}
+
+void FitRun::stand_at(const FitMinimum& minimum) {
+    evaluator_->x = minimum.x;
+    for (std::size_t i = 0; i < views_.size(); ++i) views_[i].log_gain_start = minimum.log_gains[i];
+}
+
+FitMinimum FitRun::standing() const {
+    FitMinimum minimum{.x = evaluator_->x, .log_gains = {}, .cost = cost_};
+    for (const FitView& view : views_) minimum.log_gains.push_back(view.log_gain_start);
+    return minimum;
 }
 
 void FitRun::solve_coatings() {
     // Reflectances come back as centres move: several starts, the lens's own first.
     std::mt19937_64 random(request_.seed);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-    const std::vector<double> own = evaluator_->x;
-    std::vector<double> best = own, best_gains(views_.size(), 0.0);
-    double lowest = std::numeric_limits<double>::infinity();
     const std::size_t count = layout_.coatings.size();
-    for (int start = 0; start < std::max(1, request_.starts); ++start) {
-        if (start > 0 && count == 0) break;
-        evaluator_->x = own;
-        for (std::size_t p = 0; p < count && start > 0; ++p) {
+    std::vector<std::vector<double>> points = {evaluator_->x};
+    for (int start = 1; start < request_.starts && count > 0; ++start) {
+        std::vector<double>& x = points.emplace_back(evaluator_->x);
+        for (std::size_t p = 0; p < count; ++p) {
             const FitParameter& each = layout_.coatings[p];
             const double low = (each.lower - each.start) / each.prior,
                          high = (each.upper - each.start) / each.prior;
@@ -193,65 +165,60 @@ void FitRun::solve_coatings() {
             double to = 1.2 * uniform(random);
             if (each.kind == FitKind::center && start <= static_cast<int>(alike_nm.size()))
                 to = (alike_nm[static_cast<std::size_t>(start) - 1] - each.start) / each.prior;
-            evaluator_->x[p] = std::clamp(to, 0.95 * low, 0.95 * high);
+            x[p] = std::clamp(to, 0.95 * low, 0.95 * high);
         }
-        evaluator_->start_gains();
-        const double cost = solve(start_iterations);
-        if (cost < lowest) {
-            lowest = cost;
-            best = evaluator_->x;
-            best_gains.clear();
-            for (const FitView& view : views_) best_gains.push_back(view.log_gain_start);
-        }
-        check_stop();
-        tell(0.1 + 0.4 * (start + 1) / std::max(1, request_.starts));
     }
-    if (!std::isfinite(lowest))
+    CoatingSearch search(layout_, views_, *weights_, request_.loss, request_.loss_scale,
+                         request_.threads);
+    const auto found = search.descend_all(points, start_iterations, stop_);
+    check_stop();
+    report_.iterations += search.iterations();
+    const FitMinimum& best = *std::ranges::min_element(found, {}, &FitMinimum::cost);
+    if (!std::isfinite(best.cost))
         throw Error({.problem = "the fit found no finite picture of this lens",
                      .file = photos_.front().photo.file,
                      .where = "--vary",
                      .found = "values or slopes that are not numbers from every first guess",
                      .expected = "other bounds, or fewer variables"});
-    evaluator_->x = best;
-    for (std::size_t i = 0; i < views_.size(); ++i) views_[i].log_gain_start = best_gains[i];
+    stand_at(best);
     solve(final_iterations);
-    for (int round = 0; round < 3; ++round) {
-        if (!jump_centers()) break;
-        solve(final_iterations);
-    }
 }
 
-bool FitRun::jump_centers() {
-    bool improved = false;
-    double lowest = cost_now();
-    std::vector<double> best = evaluator_->x;
-    for (std::size_t p = 0; p < layout_.coatings.size(); ++p) {
-        const FitParameter& each = layout_.coatings[p];
-        if (each.kind != FitKind::center) continue;
-        const double before = best[p];
-        for (const double by_nm : {-100.0, -50.0, 50.0, 100.0}) {
-            const double at = before + by_nm / each.prior;
-            if (at * each.prior + each.start < each.lower ||
-                at * each.prior + each.start > each.upper)
-                continue;
-            evaluator_->x = best;
-            evaluator_->x[p] = at;
-            evaluator_->fit_gains();
-            const double cost = solve(jump_iterations);
-            if (cost < lowest - least_gain) {
-                lowest = cost;
-                best = evaluator_->x;
-                improved = true;
-                break;
-            }
-        }
-        check_stop();
+bool FitRun::explore_coatings() {
+    if (request_.starts < 2 || layout_.coatings.empty()) return false;
+    const std::vector<double> before = evaluator_->x;
+    CoatingSearch search(layout_, views_, *weights_, request_.loss, request_.loss_scale,
+                         request_.threads);
+    // Where the model does not fit, differences of cost say less.
+    std::size_t samples = 0;
+    for (const FitView& view : views_) samples += view.data.count;
+    const double misfit = std::max(1.0, 2.0 * cost_now() / (3.0 * static_cast<double>(samples)));
+    const auto found =
+        search.explore(standing(), 0.5 * most_chi2_above * misfit, stop_, [&] { tell(share_); });
+    check_stop();
+    report_.iterations += search.iterations();
+    // On all samples, whose noise is shared, costs differ by more than those of χ².
+    std::vector<FitMinimum> minima;
+    for (const FitMinimum& each : found) {
+        if (minima.size() == most_minima) break;
+        stand_at(each);
+        const double cost = solve(jump_iterations);
+        minima.push_back(standing());
+        minima.back().cost = cost;
     }
-    evaluator_->x = best;
-    return improved;
+    std::ranges::stable_sort(minima, {}, &FitMinimum::cost);
+    other_minima_.assign(minima.begin() + 1, minima.end());
+    for (FitMinimum& each : other_minima_)
+        each.cost = 2.0 * (each.cost - minima.front().cost) / shared_noise();
+    stand_at(minima.front());
+    solve(final_iterations);
+    double moved = 0.0;
+    for (std::size_t p = 0; p < layout_.coatings.size(); ++p)
+        moved = std::max(moved, std::abs(evaluator_->x[p] - before[p]));
+    return moved > settled;
 }
 
-void FitRun::settle() {
+void FitRun::settle(int most_linearisations) {
     if (layout_.geometry.empty() && !layout_.place) return;
     for (int turn = 0; turn < most_linearisations; ++turn) {
         double moved = 0.0;
@@ -266,7 +233,7 @@ void FitRun::settle() {
         }
         linearise();
         solve(final_iterations);
-        tell(0.6 + 0.1 * turn);
+        tell(share_);
     }
 }
 

@@ -73,6 +73,15 @@ struct FittedNumber {
     double low = 0.0, high = 0.0;  ///< 95 %: ± 1.96 standard errors, within the bounds
     double start_error = 0.0;      ///< expected at the start, from the Jacobian there
     FitKnowledge knowledge = FitKnowledge::prior;
+    /// In other minima of the cost that explain the photographs nearly as well; the error allows
+    /// for them, and the interval reaches to those whose share is more than 2.5 %.
+    std::vector<double> other_values = {};
+};
+
+/// Another minimum of the cost that the photographs do not exclude.
+struct OtherMinimum {
+    double chi2_above = 0.0;  ///< by which its χ² is higher, of independent samples
+    double share = 0.0;       ///< of the probability: exp(−χ²/2) over the sum of all
 };
 
 /// A combination of numbers that the photographs do not determine.
@@ -125,8 +134,9 @@ struct FitReport {
     std::vector<double> correlation;  ///< numbers × numbers, of those not held
     std::vector<double> covariance;
     std::vector<UnknownDirection> unknown;
-    std::size_t rank = 0;             ///< directions that the photographs determine
-    std::vector<FittedGhost> ghosts;  ///< visible ones, strongest first
+    std::vector<OtherMinimum> other_minima;  ///< the likeliest first
+    std::size_t rank = 0;                    ///< directions that the photographs determine
+    std::vector<FittedGhost> ghosts;         ///< visible ones, strongest first
     std::size_t ghosts_left_out = 0;
     double left_out_signal_to_noise = 0.0;  ///< of all of those together, at the start
     std::vector<ReflectanceBand> bands;

@@ -75,7 +75,7 @@ std::optional<FlareImage> photo_subject(const Prescription& lens,
     flare.spectrum = request.spectrum;
     flare.method = FlareMethod::reference;
     flare.width_px = request.width_px;
-    flare.spectral_samples = request.spectral_samples;
+    flare.tolerance = request.tolerance;
     flare.threads = request.threads;
     return render_flare(lens, flare, std::move(stop));
 }

@@ -17,7 +17,8 @@ struct SyntheticPhotoRequest {
     double field_offset_deg = 0.0, azimuth_offset_deg = 0.0;
     Spectrum spectrum = StandardLight{};
     int width_px = 720;
-    int spectral_samples = 31;
+    /// Of the reference picture, relative L1.
+    double tolerance = 0.01;
     /// log2 of the value of the light's own irradiance E0 on the sensor, 1 being saturation; none:
     /// so that the brightest thousandth of the flare is at half of saturation.
     std::optional<double> exposure_ev;

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/error.h"
 #include "core/flare/tone_map.h"
 #include "core/io/aside_file.h"
+#include "core/io/refuse_file.h"
 #include "core/io/same_name.h"
 
 namespace ghostlight {
@@ -19,15 +19,6 @@ namespace {
 constexpr std::size_t most_frames = 100'000;
 
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
-
-[[noreturn]] void refuse(const std::filesystem::path& file, std::string problem, std::string found,
-                         std::string expected) {
-    throw Error({.problem = std::move(problem),
-                 .file = file.string(),
-                 .where = {},
-                 .found = std::move(found),
-                 .expected = std::move(expected)});
-}
 
 std::string list_of(const std::vector<long>& numbers) {
     std::string text;
@@ -50,7 +41,7 @@ FramePattern parse_frame_pattern(const std::string& text) {
     FramePattern pattern{path.parent_path(), path.filename().string(), {}, 0};
     constexpr auto expected = "one run of # in the file's name, such as shot.####.exr";
     if (pattern.folder.string().find('#') != std::string::npos)
-        refuse(path, "not a name of frames", "# in a folder's name", expected);
+        refuse_file(path, "not a name of frames", "# in a folder's name", expected);
     const std::string name = pattern.before;
     const auto first = name.find('#');
     if (first == std::string::npos) return pattern;
@@ -59,7 +50,7 @@ FramePattern parse_frame_pattern(const std::string& text) {
     pattern.after = end == std::string::npos ? "" : name.substr(end);
     pattern.digits = static_cast<int>((end == std::string::npos ? name.size() : end) - first);
     if (pattern.after.find('#') != std::string::npos || pattern.digits > 9)
-        refuse(path, "not a name of frames", name, expected);
+        refuse_file(path, "not a name of frames", name, expected);
     return pattern;
 }
 
@@ -67,7 +58,7 @@ std::vector<long> frames_of(const FramePattern& pattern) {
     if (pattern.digits == 0) {
         std::error_code unreadable;
         if (!std::filesystem::is_regular_file(pattern.file(0), unreadable))
-            refuse(pattern.file(0), "no such picture", {}, {});
+            refuse_file(pattern.file(0), "no such picture", {}, {});
         return {0};
     }
     std::vector<long> numbers;
@@ -89,20 +80,20 @@ std::vector<long> frames_of(const FramePattern& pattern) {
             continue;
         numbers.push_back(value);
         if (numbers.size() > most_frames)
-            refuse(folder, "too many frames", {}, fmt::format("at most {}", most_frames));
+            refuse_file(folder, "too many frames", {}, fmt::format("at most {}", most_frames));
     }
     const std::string shown =
         pattern.before + std::string(idx(pattern.digits), '#') + pattern.after;
-    if (numbers.empty()) refuse(folder / shown, "no frame is there", {}, "numbered pictures");
+    if (numbers.empty()) refuse_file(folder / shown, "no frame is there", {}, "numbered pictures");
     std::ranges::sort(numbers);
     std::vector<long> missing;
     for (std::size_t k = 1; k < numbers.size(); ++k)
         for (long n = numbers[k - 1] + 1; n < numbers[k] && missing.size() < most_frames; ++n)
             missing.push_back(n);
     if (!missing.empty())
-        refuse(folder / shown, "frames are missing", list_of(missing),
-               fmt::format("every frame from {} to {}, or --frames FIRST:LAST", numbers.front(),
-                           numbers.back()));
+        refuse_file(folder / shown, "frames are missing", list_of(missing),
+                    fmt::format("every frame from {} to {}, or --frames FIRST:LAST",
+                                numbers.front(), numbers.back()));
     return numbers;
 }
 
@@ -117,11 +108,11 @@ LinearPicture read_frame(const std::filesystem::path& file, bool clamps) {
     }
     if (bad > 0 && !clamps) {
         const std::size_t pixel = first / 3;
-        refuse(file, "a pixel without a usable value",
-               fmt::format("{} at column {}, row {} (from 0, at the top left); {} such values",
-                           picture.rgb[first], pixel % idx(picture.width),
-                           pixel / idx(picture.width), bad),
-               "finite numbers from 0; --clamp takes others as black");
+        refuse_file(file, "a pixel without a usable value",
+                    fmt::format("{} at column {}, row {} (from 0, at the top left); {} such values",
+                                picture.rgb[first], pixel % idx(picture.width),
+                                pixel / idx(picture.width), bad),
+                    "finite numbers from 0; --clamp takes others as black");
     }
     return picture;
 }
@@ -131,14 +122,14 @@ void write_frame(const LinearPicture& picture, const std::filesystem::path& file
     const bool exr = is_same_name(extension, ".exr"), png = is_same_name(extension, ".png");
     const bool tiff = is_same_name(extension, ".tif") || is_same_name(extension, ".tiff");
     if (!exr && !png && !tiff)
-        refuse(file, "not a picture's name", extension, ".exr, .png or .tif");
+        refuse_file(file, "not a picture's name", extension, ".exr, .png or .tif");
     OIIO::ImageSpec spec(picture.width, picture.height, 3,
                          exr ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT16);
     spec.attribute("oiio:ColorSpace", exr ? "Linear" : "sRGB");
     if (exr) spec.attribute("compression", "zip");
     AsideFile aside(file);
     const auto out = OIIO::ImageOutput::create(exr ? "openexr" : png ? "png" : "tiff");
-    if (!out) refuse(file, "the picture cannot be written: " + OIIO::geterror(), {}, {});
+    if (!out) refuse_file(file, "the picture cannot be written: " + OIIO::geterror(), {}, {});
     bool written = out->open(aside.path().string(), spec);
     if (written && exr) {
         written = out->write_image(OIIO::TypeDesc::FLOAT, picture.rgb.data());
@@ -151,7 +142,7 @@ void write_frame(const LinearPicture& picture, const std::filesystem::path& file
         written = out->write_image(OIIO::TypeDesc::UINT16, values.data());
     }
     if (!written || !out->close())
-        refuse(file, "the picture cannot be written: " + out->geterror(), {}, {});
+        refuse_file(file, "the picture cannot be written: " + out->geterror(), {}, {});
     aside.commit();
 }
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
 #include "core/flare/ghost_mesh.h"
+#include "core/io/refuse_file.h"
 
 namespace ghostlight {
 namespace {
@@ -16,15 +16,6 @@ constexpr int most_side_px = 32768;
 constexpr double most_pixels = 2e8;
 
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
-
-[[noreturn]] void refuse(const std::filesystem::path& file, std::string problem, std::string found,
-                         std::string expected) {
-    throw Error({.problem = std::move(problem),
-                 .file = file.string(),
-                 .where = {},
-                 .found = std::move(found),
-                 .expected = std::move(expected)});
-}
 
 float srgb_decoded(float encoded) {
     return encoded <= 0.04045F ? encoded / 12.92F : std::pow((encoded + 0.055F) / 1.055F, 2.4F);
@@ -53,23 +44,24 @@ Span span(double low, double high, int count) {
 LinearPicture read_linear_picture(const std::filesystem::path& file) {
     std::error_code unreadable;
     if (!std::filesystem::is_regular_file(file, unreadable))
-        refuse(file, "no such picture", {}, {});
+        refuse_file(file, "no such picture", {}, {});
     const auto in = OIIO::ImageInput::open(file.string());
-    if (!in) refuse(file, "the picture cannot be read: " + OIIO::geterror(), {}, {});
+    if (!in) refuse_file(file, "the picture cannot be read: " + OIIO::geterror(), {}, {});
     const OIIO::ImageSpec spec = in->spec();
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
-        refuse(file, "the picture is empty", {}, {});
+        refuse_file(file, "the picture is empty", {}, {});
     if (spec.width > most_side_px || spec.height > most_side_px ||
         static_cast<double>(spec.width) * spec.height > most_pixels)
-        refuse(file, "the picture is too large", fmt::format("{} × {}", spec.width, spec.height),
-               fmt::format("at most {} a side and {:.0f} million pixels", most_side_px,
-                           most_pixels * 1e-6));
+        refuse_file(file, "the picture is too large",
+                    fmt::format("{} × {}", spec.width, spec.height),
+                    fmt::format("at most {} a side and {:.0f} million pixels", most_side_px,
+                                most_pixels * 1e-6));
     LinearPicture picture{spec.width, spec.height, {}};
     const std::size_t pixels = idx(spec.width) * idx(spec.height);
     const int channels = std::min(spec.nchannels, 3);
     std::vector<float> values(pixels * idx(channels));
     if (!in->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, values.data()))
-        refuse(file, "the picture cannot be read: " + in->geterror(), {}, {});
+        refuse_file(file, "the picture cannot be read: " + in->geterror(), {}, {});
     const bool is_float = spec.format.is_floating_point();
     picture.rgb.resize(3 * pixels);
     for (std::size_t i = 0; i < pixels; ++i)

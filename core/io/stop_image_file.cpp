@@ -6,22 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
+#include "core/io/refuse_file.h"
 
 namespace ghostlight {
 namespace {
 
 constexpr int most_side_px = 16384;
 constexpr long most_pixels = 1L << 26;  // 64 Mi: a quarter of a gigabyte as it is read
-
-[[noreturn]] void refuse(const std::filesystem::path& file, std::string problem, std::string found,
-                         std::string expected) {
-    throw Error({.problem = std::move(problem),
-                 .file = file.string(),
-                 .where = {},
-                 .found = std::move(found),
-                 .expected = std::move(expected)});
-}
 
 /// One value a pixel, of all its channels.
 float share_of(const float* pixel, int channels, int alpha) {
@@ -41,35 +32,35 @@ float share_of(const float* pixel, int channels, int alpha) {
 StopImage read_stop_image(const std::filesystem::path& file) {
     const auto in = OIIO::ImageInput::open(file.string());
     if (!in)
-        refuse(file, "the stop's image cannot be read", OIIO::geterror(),
-               "a PNG, TIFF, EXR or JPEG file");
+        refuse_file(file, "the stop's image cannot be read", OIIO::geterror(),
+                    "a PNG, TIFF, EXR or JPEG file");
     const OIIO::ImageSpec spec = in->spec();
     if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
-        refuse(file, "the stop's image is empty",
-               fmt::format("{} x {} pixels", spec.width, spec.height), "at least one pixel");
+        refuse_file(file, "the stop's image is empty",
+                    fmt::format("{} x {} pixels", spec.width, spec.height), "at least one pixel");
     const long pixels = static_cast<long>(spec.width) * spec.height;
     if (spec.width > most_side_px || spec.height > most_side_px || pixels > most_pixels)
-        refuse(file, "the stop's image is too large",
-               fmt::format("{} x {} pixels", spec.width, spec.height),
-               "at most 16384 pixels a side and 64 million in all; 1024 across are used");
+        refuse_file(file, "the stop's image is too large",
+                    fmt::format("{} x {} pixels", spec.width, spec.height),
+                    "at most 16384 pixels a side and 64 million in all; 1024 across are used");
     std::vector<float> values(static_cast<std::size_t>(pixels) *
                               static_cast<std::size_t>(spec.nchannels));
     if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data()))
-        refuse(file, "the stop's image cannot be read", in->geterror(), "a complete image");
+        refuse_file(file, "the stop's image cannot be read", in->geterror(), "a complete image");
     std::vector<float> open(static_cast<std::size_t>(pixels));
     for (std::size_t k = 0; k < open.size(); ++k) {
         const float share = share_of(&values[k * static_cast<std::size_t>(spec.nchannels)],
                                      spec.nchannels, spec.alpha_channel);
         if (!std::isfinite(share))
-            refuse(file, "the stop's image has a value that is no number", fmt::format("{}", share),
-                   "shares from 0 to 1");
+            refuse_file(file, "the stop's image has a value that is no number",
+                        fmt::format("{}", share), "shares from 0 to 1");
         open[k] = std::clamp(share, 0.0F, 1.0F);
     }
     StopImage image{file.string(),
                     std::make_shared<const StopPicture>(spec.width, spec.height, open)};
     if (image.picture->mean_over_circle() <= 0.0)
-        refuse(file, "the stop's image lets no light through", "black everywhere in the stop",
-               "an image that is white where the stop is open");
+        refuse_file(file, "the stop's image lets no light through", "black everywhere in the stop",
+                    "an image that is white where the stop is open");
     return image;
 }
 

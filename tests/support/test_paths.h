@@ -13,5 +13,7 @@ std::filesystem::path test_data_folder();
 std::filesystem::path lens_folder();
 /// The built ghostlight-cli.
 std::filesystem::path cli_program();
+/// The built ghostlight, where there is one.
+std::filesystem::path gui_program();
 
 }  // namespace ghostlight

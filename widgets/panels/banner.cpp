@@ -12,7 +12,12 @@
 
 namespace ghostlight {
 
-Banner::Banner(QWidget* window) : QFrame(window), label_(new QLabel), action_(new QPushButton) {
+Banner::Banner(QWidget* window)
+    : QFrame(window),
+      label_(new QLabel),
+      action_(new QPushButton),
+      decline_(new QPushButton),
+      close_(new QToolButton) {
     setObjectName("banner");
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(12, 8, 8, 8);
@@ -21,17 +26,16 @@ Banner::Banner(QWidget* window) : QFrame(window), label_(new QLabel), action_(ne
     label_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     row->addWidget(label_, 1);
     row->addWidget(action_);
-    auto* close = new QToolButton;
-    close->setText("×");
-    close->setAutoRaise(true);
-    close->setToolTip("Put this message away");
-    row->addWidget(close, 0, Qt::AlignTop);
-    connect(close, &QToolButton::clicked, this, [this] {
-        Q_EMIT offer_declined(topic_);
-        clear(topic_);
-    });
+    row->addWidget(decline_);
+    close_->setText("×");
+    close_->setAutoRaise(true);
+    close_->setToolTip(tr("Put this message away"));
+    close_->setAccessibleName(close_->toolTip());
+    row->addWidget(close_, 0, Qt::AlignTop);
+    connect(close_, &QToolButton::clicked, this, &Banner::decline);
+    connect(decline_, &QPushButton::clicked, this, &Banner::decline);
     connect(action_, &QPushButton::clicked, this, [this] {
-        const QString topic = topic_;
+        const QString topic = messages_.back().topic;
         clear(topic);
         Q_EMIT offer_taken(topic);
     });
@@ -40,24 +44,49 @@ Banner::Banner(QWidget* window) : QFrame(window), label_(new QLabel), action_(ne
 
 void Banner::show_text(const QString& topic, const QString& text) { show_offer(topic, text, {}); }
 
-void Banner::show_offer(const QString& topic, const QString& text, const QString& action_text) {
-    topic_ = topic;
+void Banner::show_offer(const QString& topic, const QString& text, const QString& action_text,
+                        const QString& decline_text) {
+    std::erase_if(messages_, [&](const Message& message) {
+        return message.topic == topic || message.action_text.isEmpty();
+    });
+    messages_.push_back({topic, text, action_text, decline_text});
+    show_newest();
+}
+
+void Banner::show_newest() {
+    if (messages_.empty()) {
+        label_->clear();
+        hide();
+        return;
+    }
+    const Message& newest = messages_.back();
     QPalette colors = label_->palette();
-    colors.setColor(QPalette::WindowText,
-                    action_text.isEmpty() ? current_palette().red_orange : current_palette().text);
+    colors.setColor(QPalette::WindowText, newest.action_text.isEmpty()
+                                              ? current_palette().red_orange
+                                              : current_palette().text);
     label_->setPalette(colors);
-    label_->setText(text);
-    action_->setText(action_text);
-    action_->setVisible(!action_text.isEmpty());
+    label_->setText(newest.text);
+    action_->setText(newest.action_text);
+    action_->setVisible(!newest.action_text.isEmpty());
+    decline_->setText(newest.decline_text);
+    decline_->setVisible(!newest.decline_text.isEmpty());
+    close_->setVisible(newest.decline_text.isEmpty());
     show();
     raise();
     fit();
 }
 
+void Banner::decline() {
+    const QString topic = messages_.back().topic;
+    Q_EMIT offer_declined(topic);
+    clear(topic);
+}
+
 void Banner::clear(const QString& topic) {
-    if (topic == topic_) {
-        label_->clear();
-        hide();
+    const auto gone =
+        std::erase_if(messages_, [&](const Message& message) { return message.topic == topic; });
+    if (gone > 0) {
+        show_newest();
     }
 }
 
@@ -65,6 +94,7 @@ QString Banner::text() const { return isHidden() ? QString() : label_->text(); }
 
 void Banner::set_place(const QRect& place) {
     place_ = place;
+    raise();  // panels that were arranged since lie over it
     fit();
 }
 

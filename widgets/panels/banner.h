@@ -2,8 +2,11 @@
 
 #include <QFrame>
 
+#include <vector>
+
 class QLabel;
 class QPushButton;
+class QToolButton;
 
 namespace ghostlight {
 
@@ -16,8 +19,10 @@ class Banner : public QFrame {
 
     /// `topic` tells which message a later clear() means.
     void show_text(const QString& topic, const QString& text);
-    /// With one action beside it.
-    void show_offer(const QString& topic, const QString& text, const QString& action_text);
+    /// With one action beside it, and another for putting it away if that has a name of its own.
+    /// Unlike a text, an offer that another message covers comes back after that one.
+    void show_offer(const QString& topic, const QString& text, const QString& action_text,
+                    const QString& decline_text = {});
     void clear(const QString& topic);
     QString text() const;
     /// Where it may be, in the window.
@@ -28,11 +33,18 @@ class Banner : public QFrame {
     void offer_declined(const QString& topic);
 
    private:
+    struct Message {
+        QString topic, text, action_text, decline_text;
+    };
     void fit();
+    void show_newest();
+    void decline();
 
     QLabel* label_;
     QPushButton* action_;
-    QString topic_;
+    QPushButton* decline_;
+    QToolButton* close_;
+    std::vector<Message> messages_;  ///< the last one is shown
     QRect place_;
 };
 

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+
+#include "core/fit/fit_evaluator.h"
+
+namespace ghostlight {
+
+/// Iterations of Levenberg and Marquardt's method (Ceres) from where the evaluator stands.
+struct Descent {
+    /// At its end; infinite where it failed, which must not pass for the lowest.
+    double cost = 0.0;
+    int iterations = 0;
+};
+/// `go_on` is told each iteration's cost, and ends the descent by false.
+Descent descend(FitEvaluator& evaluator, FitLoss loss, double loss_scale, int iterations,
+                const std::function<bool(double)>& go_on = {});
+
+/// Half of Σ ρ(squares of a sample's residuals), plus half of the priors' squares, there.
+double cost_of(FitEvaluator& evaluator, FitLoss loss, double loss_scale);
+
+}  // namespace ghostlight

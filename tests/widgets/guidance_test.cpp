@@ -1,0 +1,197 @@
+// The tour, the gallery, the keyboard's way from panel to panel, and how large letters are.
+
+#include <gtest/gtest.h>
+
+#include <QDir>
+#include <QDockWidget>
+#include <QListWidget>
+#include <QPushButton>
+#include <QSettings>
+#include <QSignalSpy>
+#include <QTemporaryDir>
+
+#include <set>
+
+#include "tests/widgets/window_kit.h"
+#include "widgets/lens_gallery.h"
+#include "widgets/lens_thumbnails.h"
+#include "widgets/palette.h"
+#include "widgets/panels/flare_panel.h"
+#include "widgets/panels/ghost_panel.h"
+#include "widgets/panels/prescription_panel.h"
+#include "widgets/settings.h"
+#include "widgets/tour.h"
+
+namespace ghostlight {
+namespace {
+
+using test::OpenWindow;
+
+std::size_t colors_in(const QImage& image, const QRect& part) {
+    std::set<QRgb> colors;
+    for (int y = part.top(); y <= part.bottom(); y += 2) {
+        for (int x = part.left(); x <= part.right(); x += 2) {
+            colors.insert(image.pixel(x, y));
+        }
+    }
+    return colors.size();
+}
+
+TEST(Tour, ThreeStepsPointAtTheLightTheTableAndTheCoating) {
+    OpenWindow shown(test::tessar());
+    MainWindow& window = shown.window;
+    window.findChild<QDockWidget*>("ghosts")->hide();  // it brings up what it points at
+    window.actions()["help.tour"].trigger();
+    auto* tour = window.findChild<Tour*>();
+    ASSERT_NE(tour, nullptr);
+    const QWidget* targets[] = {&window.flare_panel(), &window.ghost_panel(),
+                                &window.prescription_panel()};
+    for (int step = 0; step < 3; ++step) {
+        ASSERT_TRUE(tour->isVisible());
+        EXPECT_EQ(tour->step(), step);
+        QTest::qWait(20);
+        EXPECT_TRUE(window.rect().contains(tour->geometry()));
+        EXPECT_TRUE(targets[step]->isVisible());
+        // The window is in use meanwhile.
+        Scene scene = window.document().scene();
+        scene.light().direction.field_deg = 2.0 + step;
+        window.document().edit_scene(scene, "move the light");
+        tour->go_to(step + 1);
+    }
+    EXPECT_FALSE(tour->isVisible());
+    EXPECT_FALSE(settings::tour_is_due()) << "shown once";
+}
+
+TEST(Tour, EscapeAndSkipEndIt) {
+    OpenWindow shown(test::tessar());
+    shown.window.actions()["help.tour"].trigger();
+    auto* tour = shown.window.findChild<Tour*>();
+    QTest::keyClick(tour, Qt::Key_Escape);
+    EXPECT_FALSE(tour->isVisible());
+    shown.window.actions()["help.tour"].trigger();
+    EXPECT_TRUE(tour->isVisible());
+    for (QPushButton* button : tour->findChildren<QPushButton*>()) {
+        if (button->text() == "Skip") {
+            QTest::mouseClick(button, Qt::LeftButton);
+        }
+    }
+    EXPECT_FALSE(tour->isVisible());
+}
+
+TEST(FirstStart, ABundledLensIsOpenAndTheTourBegins) {
+    QSettings().remove("tour_seen");
+    MainWindow window(true);
+    window.show();
+    window.welcome();
+    EXPECT_FALSE(window.document().is_empty());
+    EXPECT_TRUE(window.findChild<Tour*>()->isVisible());
+    window.findChild<Tour*>()->end();
+    MainWindow next(true);
+    next.show();
+    next.welcome();
+    EXPECT_TRUE(next.document().is_empty());
+    EXPECT_FALSE(next.findChild<Tour*>()->isVisible());
+}
+
+TEST(Gallery, EveryLayoutIsDrawn) {
+    for (const BundledLens& lens : bundled_lenses()) {
+        const QImage layout = layout_thumbnail(read_lens(lens.file).lens, 1.0);
+        ASSERT_EQ(layout.size(), QSize(thumbnail_width_px, thumbnail_height_px));
+        // Ground, glass, outlines, rays, axis: more than a few colours, with the blends of edges.
+        EXPECT_GT(colors_in(layout, layout.rect()), 20U) << lens.name;
+    }
+}
+
+TEST(Gallery, ThumbnailsAreMadeOnceAndKept) {
+    const QTemporaryDir cache;
+    const std::vector<std::filesystem::path> files{test::tessar()};
+    QImage made, kept;
+    for (QImage* picture : {&made, &kept}) {
+        LensThumbnails thumbnails(files, cache.path(), 1.0);
+        QObject::connect(&thumbnails, &LensThumbnails::flare_made, &thumbnails,
+                         [picture](int, const QImage& flare) { *picture = flare; });
+        QSignalSpy finished(&thumbnails, &LensThumbnails::finished);
+        ASSERT_TRUE(finished.wait(test::patience_ms));
+        ASSERT_FALSE(picture->isNull());
+    }
+    EXPECT_EQ(made.convertToFormat(QImage::Format_RGB32),
+              kept.convertToFormat(QImage::Format_RGB32));
+    EXPECT_EQ(QDir(cache.path()).entryList({"*.png"}).size(), 1);
+    EXPECT_GT(colors_in(made, made.rect()), 20U) << "there is a flare in it";
+}
+
+TEST(Gallery, AChosenLensIsOpened) {
+    OpenWindow shown;
+    MainWindow& window = shown.window;
+    window.actions()["file.gallery"].trigger();
+    auto* gallery = window.findChild<LensGallery*>();
+    ASSERT_NE(gallery, nullptr);
+    EXPECT_EQ(gallery->list().count(), static_cast<int>(bundled_lenses().size()));
+    gallery->list().setCurrentRow(2);
+    const QString name = gallery->list().item(2)->text();
+    QTest::keyClick(&gallery->list(), Qt::Key_Return);
+    EXPECT_EQ(window.document().title(), name);
+}
+
+TEST(Gallery, ClosingItEndsTheWork) {
+    OpenWindow shown;
+    shown.window.actions()["file.gallery"].trigger();
+    auto* gallery = shown.window.findChild<LensGallery*>();
+    QTest::qWait(50);
+    gallery->close();
+    EXPECT_TRUE(
+        QTest::qWaitFor([&] { return shown.window.findChild<LensGallery*>() == nullptr; }, 20'000));
+}
+
+TEST(Keyboard, F6ReachesEveryPanelAndComesRound) {
+    OpenWindow shown(test::tessar());
+    MainWindow& window = shown.window;
+    window.activateWindow();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&window));
+    std::set<const QWidget*> reached;
+    int visible = 2;  // the scene bar and the flare
+    for (const QDockWidget* dock : window.findChildren<QDockWidget*>()) {
+        visible += dock->isHidden() ? 0 : 1;
+    }
+    const auto place = [&]() -> const QWidget* {
+        for (const QWidget* at = QApplication::focusWidget(); at != nullptr;
+             at = at->parentWidget()) {
+            if (qobject_cast<const QDockWidget*>(at) != nullptr || at == &window.flare_panel() ||
+                at->inherits("QToolBar")) {
+                return at;
+            }
+        }
+        return nullptr;
+    };
+    for (int k = 0; k < visible; ++k) {
+        window.actions()["view.next_panel"].trigger();
+        QTest::qWait(10);
+        reached.insert(place());
+    }
+    EXPECT_EQ(reached.size(), static_cast<std::size_t>(visible));
+    EXPECT_FALSE(reached.contains(nullptr));
+    const QWidget* last = place();
+    window.actions()["view.next_panel"].trigger();
+    EXPECT_TRUE(reached.contains(place()));
+    window.actions()["view.previous_panel"].trigger();
+    EXPECT_EQ(place(), last);
+}
+
+TEST(Looks, LettersGrowAndShrinkWithinLimits) {
+    OpenWindow shown;
+    settings::set_look({});
+    apply_theme(*qApp, Theme::dark);
+    const int usual = QApplication::font().pixelSize();
+    for (int k = 0; k < 20; ++k) {
+        shown.window.actions()["view.larger_text"].trigger();
+    }
+    EXPECT_EQ(QApplication::font().pixelSize(), qRound(usual * most_text_scale));
+    EXPECT_EQ(shown.window.prescription_panel().font().pixelSize(),
+              QApplication::font().pixelSize());
+    settings::set_look({});
+    apply_theme(*qApp, Theme::dark);
+    EXPECT_EQ(QApplication::font().pixelSize(), usual);
+}
+
+}  // namespace
+}  // namespace ghostlight

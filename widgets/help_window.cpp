@@ -1,0 +1,163 @@
+#include "widgets/help_window.h"
+
+#include <QDir>
+#include <QFile>
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QImageReader>
+#include <QScrollBar>
+#include <QShortcut>
+#include <QTextBlock>
+#include <QTextBrowser>
+#include <QTextDocument>
+#include <QTimer>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+#include "widgets/help_pages.h"
+#include "widgets/palette.h"
+#include "widgets/panels/quiet_button.h"
+
+namespace ghostlight {
+
+namespace {
+
+constexpr int width_px = 860, height_px = 820;
+constexpr int widest_image_px = 780;  // of the window's width, less margins and scroll bar
+
+}  // namespace
+
+/// Pictures no wider than the window, and headings that can be gone to.
+class HelpWindow::Browser : public QTextBrowser {
+   public:
+    Browser() {
+        setOpenExternalLinks(true);
+        setFrameShape(QFrame::NoFrame);
+        document()->setDocumentMargin(20);
+        const Palette& colors = current_palette();
+        document()->setDefaultStyleSheet(
+            QStringLiteral("a { color: %1; } td, th { padding: 3px 10px; }")
+                .arg(colors.teal.name()));
+    }
+
+   protected:
+    QVariant loadResource(int type, const QUrl& name) override {
+        if (type != QTextDocument::ImageResource) {
+            return QTextBrowser::loadResource(type, name);
+        }
+        const QUrl url = name.isRelative() ? source().resolved(name) : name;
+        QImageReader reader(url.toLocalFile());
+        const QSize size = reader.size();
+        const double ratio = devicePixelRatioF();
+        const int widest = static_cast<int>(widest_image_px * ratio);
+        if (size.width() > widest) {
+            reader.setScaledSize(size.scaled(widest, size.height(), Qt::KeepAspectRatio));
+        }
+        QImage image = reader.read();
+        image.setDevicePixelRatio(ratio);
+        return image;
+    }
+};
+
+HelpWindow::HelpWindow(QWidget* parent)
+    : QWidget(parent, Qt::Window), pages_(new Browser), browser_(pages_) {
+    setObjectName("help");
+    setWindowTitle(tr("Help"));
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(0);
+    auto* bar = new QHBoxLayout;
+    bar->setContentsMargins(8, 6, 8, 6);
+    const auto add = [&](const QString& text, const QString& tip, const QKeySequence& key,
+                         auto run) {
+        auto* button = new QToolButton;
+        button->setProperty("quiet", true);
+        button->setText(text);
+        button->setToolTip(QStringLiteral("%1 (%2)").arg(tip, key.toString()));
+        button->setAccessibleName(tip);
+        connect(button, &QToolButton::clicked, this, run);
+        connect(new QShortcut(key, this), &QShortcut::activated, this, run);
+        bar->addWidget(button);
+        return button;
+    };
+    QToolButton* back =
+        add("←", tr("Back"), QKeySequence("Alt+Left"), [this] { browser_->backward(); });
+    QToolButton* forth =
+        add("→", tr("Forth"), QKeySequence("Alt+Right"), [this] { browser_->forward(); });
+    add(tr("User guide"), tr("The guide's beginning"), QKeySequence("Alt+Home"),
+        [this] { show_guide(); });
+    bar->addStretch();
+    connect(browser_, &QTextBrowser::backwardAvailable, back, &QWidget::setEnabled);
+    connect(browser_, &QTextBrowser::forwardAvailable, forth, &QWidget::setEnabled);
+    back->setEnabled(false);
+    forth->setEnabled(false);
+    column->addLayout(bar);
+    column->addWidget(browser_, 1);
+    new QShortcut(Qt::Key_Escape, this, [this] { close(); });
+    resize(width_px, height_px);
+}
+
+void HelpWindow::come() {
+    show();
+    raise();
+    activateWindow();
+    browser_->setFocus();
+}
+
+bool HelpWindow::show_guide(const QString& panel_title) {
+    const auto folder = docs_folder();
+    if (!folder) {
+        return false;
+    }
+    const QString path = QDir(*folder).filePath("user-guide.md");
+    QFile file(path);
+    if (!file.open(QIODevice::ReadOnly)) {
+        return false;
+    }
+    const QStringList all = headings(QString::fromUtf8(file.readAll()));
+    setWindowTitle(tr("User guide"));
+    browser_->setSource(QUrl::fromLocalFile(path), QTextDocument::MarkdownResource);
+    come();
+    const QString heading = panel_title.isEmpty() ? QString() : heading_about(panel_title, all);
+    if (!heading.isEmpty()) {
+        go_to_heading(heading);
+        // Once more when a window that has just come has its size.
+        QTimer::singleShot(0, this, [this, heading] { go_to_heading(heading); });
+    }
+    return true;
+}
+
+void HelpWindow::show_page(const QString& title, const QString& html) {
+    setWindowTitle(title);
+    browser_->setHtml(html);
+    come();
+}
+
+void HelpWindow::go_to_heading(const QString& heading) {
+    QString wanted = heading;
+    wanted.remove('*').remove('`');
+    for (QTextBlock block = browser_->document()->begin(); block.isValid(); block = block.next()) {
+        if (block.blockFormat().headingLevel() > 0 && block.text() == wanted) {
+            QTextCursor cursor(block);
+            browser_->setTextCursor(cursor);
+            // The heading at the top, not just somewhere in view.
+            browser_->verticalScrollBar()->setValue(browser_->verticalScrollBar()->value() +
+                                                    browser_->cursorRect().top() - 8);
+            return;
+        }
+    }
+}
+
+QString HelpWindow::heading_in_view() const {
+    const QTextCursor top = browser_->cursorForPosition(QPoint(30, 20));
+    for (QTextBlock block = top.block(); block.isValid(); block = block.previous()) {
+        if (block.blockFormat().headingLevel() > 0) {
+            return block.text();
+        }
+    }
+    return {};
+}
+
+}  // namespace ghostlight
