@@ -29,8 +29,10 @@
 #include "widgets/models/ghost_table_model.h"
 #include "widgets/models/note_table_model.h"
 #include "widgets/panel_header.h"
+#include "widgets/panels/accuracy_panel.h"
 #include "widgets/panels/banner.h"
 #include "widgets/panels/first_order_panel.h"
+#include "widgets/panels/fit_panel.h"
 #include "widgets/panels/flare_panel.h"
 #include "widgets/panels/ghost_panel.h"
 #include "widgets/panels/import_report_panel.h"
@@ -405,7 +407,7 @@ bool MainWindow::open(const std::filesystem::path& file) { return files_->open(f
 
 bool MainWindow::is_settled() const {
     return !jobs_->is_busy() && !scene_update_.isActive() && first_order_->is_settled() &&
-           stop_->is_settled();
+           stop_->is_settled() && fit_->is_settled() && accuracy_->is_settled();
 }
 
 void MainWindow::show_scene() {

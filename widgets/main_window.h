@@ -48,7 +48,10 @@ class MainWindow : public QMainWindow {
     void set_engine(FlareEngine engine);
     /// All panels where they were at first, in proportion to the window.
     void arrange_panels();
-    /// True when the views show the document as it is.
+    /// Shows the panel of a study and begins it: "fit" (as the lens has it set up), "accuracy" or
+    /// "plan"; false for another name.
+    bool begin_study(const QString& name);
+    /// True when the views show the document as it is, and no study is under way.
     bool is_settled() const;
 
     Document& document() { return document_; }

@@ -1,6 +1,7 @@
 // The panels that study a lens at length: fits and accuracy. They come when they are asked for.
 
 #include <QDockWidget>
+#include <QPushButton>
 
 #include "widgets/certificate_job.h"
 #include "widgets/main_window.h"
@@ -34,6 +35,24 @@ void MainWindow::build_studies() {
 void MainWindow::connect_studies() {
     connect(jobs_.get(), &Jobs::flare_ready, accuracy_, &AccuracyPanel::take_picture);
     connect(certificate_.get(), &CertificateJob::certified, accuracy_, &AccuracyPanel::take_proof);
+}
+
+bool MainWindow::begin_study(const QString& name) {
+    QDockWidget* dock = name == "fit" ? fit_dock_ : accuracy_dock_;
+    if (name != "fit" && name != "accuracy" && name != "plan") {
+        return false;
+    }
+    dock->show();
+    dock->raise();
+    resizeDocks({dock}, {height() * height_percent / 100}, Qt::Vertical);
+    if (name == "fit") {
+        fit_->start_when_read();
+    } else if (name == "accuracy") {
+        accuracy_->measure_button().click();
+    } else {
+        accuracy_->show_plan();
+    }
+    return true;
 }
 
 void MainWindow::arrange_studies() {

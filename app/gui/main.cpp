@@ -34,6 +34,7 @@ Opens the lens-flare workbench, on a lens file if one is given.
   --every-panel   with --snapshot: every panel, not the tabbed ones alone
   --theme NAME    dark or light, this time
   --ghost PAIR    a ghost to select at first, e.g. 5-3
+  --study NAME    a panel to open and begin: fit (as saved with the lens), accuracy or plan
   --engine NAME   what draws flares, this time: automatic, cpu or opengl
   --size WxH      size of the window in pixels, e.g. 1366x768
   --help          this text
@@ -121,6 +122,10 @@ int run(QApplication& application, const QCommandLineParser& options) {
             {ghostlight::parse_ghost(options.value("ghost").toStdString(), system)});
     }
     window.show();
+    if (options.isSet("study") && !window.begin_study(options.value("study"))) {
+        return fail("--study: found " + options.value("study").toStdString() +
+                    ", expected fit, accuracy or plan");
+    }
     if (!snapshot) {
         window.welcome();
         return QApplication::exec();
@@ -167,7 +172,8 @@ int main(int argc, char** argv) {
                         {"engine", "", "NAME"},
                         {"every-panel", ""},
                         {"theme", "", "NAME"},
-                        {"ghost", "", "PAIR"}});
+                        {"ghost", "", "PAIR"},
+                        {"study", "", "NAME"}});
     options.addPositionalArgument("LENS", "");
     if (!options.parse(QCoreApplication::arguments())) {
         return fail(options.errorText().toStdString() + " (see --help)");

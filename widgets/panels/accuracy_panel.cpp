@@ -438,6 +438,8 @@ void AccuracyPanel::report_plan(bool measure_error) {
     }
 }
 
+void AccuracyPanel::show_plan() { tabs_->setCurrentWidget(plan_); }
+
 void AccuracyPanel::showEvent(QShowEvent* event) {
     QWidget::showEvent(event);
     report_plan(false);

@@ -44,6 +44,8 @@ class AccuracyPanel : public QWidget {
     /// Writes accuracy.csv, ghosts.csv, the charts and accuracy.html; false, with the reason
     /// shown, where it cannot.
     bool save(const QString& folder);
+    /// Brings the page of what is not computed to the front.
+    void show_plan();
 
     QPushButton& measure_button() { return *measure_; }
     QPushButton& cancel_button() { return *cancel_; }
@@ -57,6 +59,7 @@ class AccuracyPanel : public QWidget {
     QTableWidget& table() { return *table_; }
     PlanPage& plan() { return *plan_; }
     QTabWidget& pages() { return *tabs_; }
+    bool is_settled() const { return !is_measuring() && !is_reporting(); }
     bool is_measuring() const { return job_->is_measuring(); }
     bool is_reporting() const { return job_->is_reporting(); }
     QString reason() const;

@@ -555,6 +555,17 @@ void FitPanel::take_photos(const LoadedPhotos& photos) {
     loaded_ = photos;
     show_photograph();
     show_buttons();
+    if (std::exchange(wants_start_, false) && start_->isEnabled()) {
+        start();
+    }
+}
+
+void FitPanel::start_when_read() {
+    if (is_settled()) {
+        start_->click();
+    } else {
+        wants_start_ = true;
+    }
 }
 
 void FitPanel::show_photograph() {

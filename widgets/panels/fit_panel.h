@@ -58,7 +58,12 @@ class FitPanel : public QWidget {
     QString reason() const;
     QString state() const;
     const std::optional<FitReport>& report() const { return report_; }
-    bool is_settled() const { return !job_->is_loading() && !delay_.isActive(); }
+    /// Photographs are read, and no fit runs or is about to.
+    bool is_settled() const {
+        return !job_->is_loading() && !delay_.isActive() && !job_->is_running() && !wants_start_;
+    }
+    /// Starts the fit as soon as its photographs are read.
+    void start_when_read();
     bool is_running() const { return job_->is_running(); }
 
    private:
@@ -117,6 +122,7 @@ class FitPanel : public QWidget {
     std::optional<FittedPhoto> shown_;     ///< pictures of the fit, of the photograph shown
     std::vector<FittedPhoto> fitted_photos_;
     double share_ = 0.0;
+    bool wants_start_ = false;
     std::unique_ptr<FitJob> job_;
 };
 
