@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/io/fit_setup_json.h"
 #include "core/io/lens_file.h"
 #include "core/io/read_text.h"
 #include "core/io/scene_json.h"
@@ -24,6 +25,10 @@ bool may_be_saved_over(const std::filesystem::path& file) {
 std::string document_to_json(const DocumentState& state, const std::filesystem::path& folder) {
     Prescription lens = state.lens;
     lens.unknown[std::string(scene_field)] = scene_to_json(state.scene);
+    if (!state.fit.empty()) {
+        lens.unknown[std::string(fit_field)] =
+            fit_setup_to_json(fit_setup_from_json(state.fit), folder);
+    }
     return lens_to_json(lens, folder);
 }
 
@@ -33,6 +38,9 @@ DocumentState document_from_lens(Prescription lens) {
     state.scene = default_scene(lens);
     if (scene) {
         state.scene = scene_from_json(scene.mapped(), lens, state.scene);
+    }
+    if (const auto fit = lens.unknown.extract(std::string(fit_field))) {
+        state.fit = fit.mapped();
     }
     state.lens = std::move(lens);
     return state;
@@ -57,19 +65,32 @@ void Document::edit(DocumentState after, const QString& text, const QString& fie
 }
 
 void Document::edit_lens(Prescription after, const QString& text, const QString& field) {
-    edit({std::move(after), state_.scene}, text, field);
+    edit({std::move(after), state_.scene, state_.fit}, text, field);
 }
 
 void Document::edit_scene(Scene after, const QString& text, const QString& field) {
-    edit({state_.lens, std::move(after)}, text, field);
+    edit({state_.lens, std::move(after), state_.fit}, text, field);
+}
+
+void Document::edit_fit(std::string after, const QString& text, const QString& field) {
+    edit({state_.lens, state_.scene, std::move(after)}, text, field);
 }
 
 void Document::apply(const DocumentState& state) {
     const bool lens_changed = state.lens != state_.lens;
+    const bool fit_is_another = state.fit != state_.fit;
+    const bool is_seen = lens_changed || state.scene != state_.scene || !fit_is_another;
     state_ = state;
+    if (!is_seen) {
+        Q_EMIT fit_changed();
+        return;
+    }
     ++revision_;
     changed_at_ = std::chrono::steady_clock::now();
     Q_EMIT changed(lens_changed);
+    if (fit_is_another) {
+        Q_EMIT fit_changed();
+    }
 }
 
 std::optional<Error> Document::open(const std::filesystem::path& file) {
@@ -78,6 +99,9 @@ std::optional<Error> Document::open(const std::filesystem::path& file) {
         std::error_code unreadable;
         const auto absolute = std::filesystem::absolute(file, unreadable);
         DocumentState state = document_from_lens(std::move(read.lens));
+        if (!state.fit.empty()) {  // photographs are named from the lens's folder
+            state.fit = fit_setup_to_json(fit_setup_from_json(state.fit, absolute.parent_path()));
+        }
         begin(state, unreadable ? file : absolute, std::move(read.notes));
         saved_lens_ = state_.lens;
         Q_EMIT file_changed();

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "core/error.h"
 #include "core/flare/scene.h"
@@ -20,6 +21,7 @@ namespace ghostlight {
 struct DocumentState {
     Prescription lens;
     Scene scene;
+    std::string fit = {};  ///< how a fit to photographs is set up (fit_setup_to_json); may be empty
     bool operator==(const DocumentState&) const = default;
 };
 
@@ -33,6 +35,7 @@ class Document : public QObject {
     const DocumentState& state() const { return state_; }
     const Prescription& lens() const { return state_.lens; }
     const Scene& scene() const { return state_.scene; }
+    const std::string& fit() const { return state_.fit; }
     bool is_empty() const { return state_.lens.surfaces.empty(); }
     /// The lens in the scene's configuration.
     Prescription configured_lens() const;
@@ -49,6 +52,7 @@ class Document : public QObject {
     void edit(DocumentState after, const QString& text, const QString& field = {});
     void edit_lens(Prescription after, const QString& text, const QString& field = {});
     void edit_scene(Scene after, const QString& text, const QString& field = {});
+    void edit_fit(std::string after, const QString& text, const QString& field = {});
     QUndoStack& history() { return history_; }
 
     /// A failing open or save changes nothing and says why.
@@ -75,6 +79,8 @@ class Document : public QObject {
    Q_SIGNALS:
     /// The state has another revision. `lens_changed` is false when only the scene is another.
     void changed(bool lens_changed);
+    /// How a fit is set up is another; comes alone where lens and scene are as they were.
+    void fit_changed();
     /// Another lens is in hand; comes before changed().
     void opened();
     /// The file, or whether the lens differs from it, may have changed.

@@ -29,8 +29,10 @@
 #include "widgets/models/ghost_table_model.h"
 #include "widgets/models/note_table_model.h"
 #include "widgets/panel_header.h"
+#include "widgets/panels/accuracy_panel.h"
 #include "widgets/panels/banner.h"
 #include "widgets/panels/first_order_panel.h"
+#include "widgets/panels/fit_panel.h"
 #include "widgets/panels/flare_panel.h"
 #include "widgets/panels/ghost_panel.h"
 #include "widgets/panels/import_report_panel.h"
@@ -70,6 +72,7 @@ MainWindow::MainWindow(bool remembers, MakeGlEngine make_gl)
     connect_engines();
     connect_reports();
     connect_editing();
+    connect_studies();
     connect_guidance();
     resize(1720, 1000);
     arrange_panels();
@@ -140,6 +143,8 @@ void MainWindow::build_panels() {
             return add_dock(panel, name, title, Qt::BottomDockWidgetArea);
         }});
 
+    build_studies();
+
     status_ = new StatusLine(document_);
     statusBar()->setSizeGripEnabled(false);
     statusBar()->setContentsMargins(0, 0, 0, 0);
@@ -184,7 +189,7 @@ void MainWindow::build_menus() {
     view->addSeparator();
     for (QDockWidget* dock :
          {prescription_dock_, layout_dock_, ghost_dock_, first_order_dock_, stop_dock_, light_dock_,
-          report_dock_, coating_dock_, configuration_dock_, glass_dock_,
+          report_dock_, coating_dock_, configuration_dock_, glass_dock_, fit_dock_, accuracy_dock_,
           understanding_->check_dock(), understanding_->sweep_dock()}) {
         view->addAction(dock->toggleViewAction());
     }
@@ -226,6 +231,7 @@ void MainWindow::arrange_panels() {
     resizeDocks({ghost_dock_, first_order_dock_}, {height() * 60 / 100, height() * 40 / 100},
                 Qt::Vertical);
     resizeDocks({report_dock_}, {height() * 22 / 100}, Qt::Vertical);
+    arrange_studies();
     // Tables need a certain width and no more; pictures take what is left.
     const int left = std::clamp(width() * 32 / 100, 380, 640);
     const int right = std::clamp(width() * 24 / 100, 300, 620);
@@ -428,7 +434,8 @@ bool MainWindow::open(const std::filesystem::path& file) { return files_->open(f
 
 bool MainWindow::is_settled() const {
     return !jobs_->is_busy() && !scene_update_.isActive() && first_order_->is_settled() &&
-           stop_->is_settled() && understanding_->is_settled();
+           stop_->is_settled() && understanding_->is_settled() && fit_->is_settled() &&
+           accuracy_->is_settled();
 }
 
 void MainWindow::show_scene() {

@@ -14,6 +14,7 @@
 
 namespace ghostlight {
 
+class AccuracyPanel;
 class Autosave;
 class Banner;
 class CertificateJob;
@@ -21,6 +22,7 @@ class CoatingPanel;
 class ConfigurationPanel;
 class FileActions;
 class FirstOrderPanel;
+class FitPanel;
 class FlarePanel;
 class GhostPanel;
 class GlassPanel;
@@ -50,7 +52,10 @@ class MainWindow : public QMainWindow {
     void set_engine(FlareEngine engine);
     /// All panels where they were at first, in proportion to the window.
     void arrange_panels();
-    /// True when the views show the document as it is.
+    /// Shows the panel of a study and begins it: "fit" (as the lens has it set up), "accuracy" or
+    /// "plan"; false for another name.
+    bool begin_study(const QString& name);
+    /// True when the views show the document as it is, and no study is under way.
     bool is_settled() const;
 
     Document& document() { return document_; }
@@ -74,6 +79,8 @@ class MainWindow : public QMainWindow {
     CoatingPanel& coating_panel() { return *coating_; }
     ConfigurationPanel& configuration_panel() { return *configurations_; }
     GlassPanel& glass_panel() { return *glasses_; }
+    FitPanel& fit_panel() { return *fit_; }
+    AccuracyPanel& accuracy_panel() { return *accuracy_; }
     const std::optional<FlarePicture>& picture() const { return picture_; }
 
    Q_SIGNALS:
@@ -89,6 +96,9 @@ class MainWindow : public QMainWindow {
    private:
     void build_panels();
     void build_menus();
+    void build_studies();
+    void connect_studies();
+    void arrange_studies();
     void connect_document();
     void connect_jobs();
     void connect_actions();
@@ -153,6 +163,11 @@ class MainWindow : public QMainWindow {
     QDockWidget* glass_dock_ = nullptr;
 
     std::unique_ptr<Understanding> understanding_;
+
+    FitPanel* fit_ = nullptr;
+    AccuracyPanel* accuracy_ = nullptr;
+    QDockWidget* fit_dock_ = nullptr;
+    QDockWidget* accuracy_dock_ = nullptr;
 
     QTimer scene_update_;  ///< many changes, one drawing
     std::optional<FlarePicture> picture_;

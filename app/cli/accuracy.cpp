@@ -8,12 +8,12 @@
 #include <fstream>
 #include <memory>
 
-#include "app/cli/accuracy_page.h"
 #include "app/cli/commands.h"
 #include "app/cli/output.h"
 #include "app/cli/report.h"
 #include "app/cli/spectrum_option.h"
 #include "core/instruction_set.h"
+#include "core/io/accuracy_page.h"
 #include "core/optics/paraxial.h"
 #include "core/parallel.h"
 #include "core/units.h"
@@ -134,8 +134,11 @@ void run(const AccuracyOptions& options) {
             fields_deg.empty() ? std::vector{usual_field_deg(loaded.lens)} : fields_deg;
         for (const double field : fields)
             for (const double stops : closings) {
-                AccuracyCase one{.loaded = loaded,
+                AccuracyCase one{.heading = lens_heading(loaded),
                                  .short_name = loaded.file.stem().string(),
+                                 .configuration = loaded.configuration,
+                                 .file = loaded.file.string(),
+                                 .surfaces = loaded.lens.surfaces.size(),
                                  .field_deg = field,
                                  .closed_stops = stops,
                                  .report = {}};

@@ -4,12 +4,11 @@
 #include <memory>
 
 #include "app/cli/commands.h"
-#include "app/cli/fit_page.h"
 #include "app/cli/output.h"
 #include "app/cli/report.h"
 #include "app/cli/spectrum_option.h"
-#include "core/fit/flare_fit.h"
-#include "core/fit/light_place.h"
+#include "core/fit/fit_setup.h"
+#include "core/io/fit_page.h"
 #include "core/io/photo_file.h"
 #include "core/optics/optical_system.h"
 #include "core/optics/paraxial.h"
@@ -42,69 +41,6 @@ std::pair<double, double> pixel(std::string_view option, std::string_view text,
                         "auto, X,Y in pixels from the upper left corner, or deg:FIELD:AZIMUTH");
     // Upright pictures are mirrored left to right against the sensor's frame.
     return {photo.width_px - *x, *y};
-}
-
-void check_shape(const Photo& photo, const Prescription& lens) {
-    const double sensor = lens.sensor.width_mm / lens.sensor.height_mm;
-    const double shape = static_cast<double>(photo.width_px) / photo.height_px;
-    if (std::abs(shape / sensor - 1.0) < 0.02) return;
-    const bool turned = std::abs(shape * sensor - 1.0) < 0.02;
-    throw Error(
-        {.problem = turned ? "the photograph is turned by 90 degrees against the sensor"
-                           : "the photograph has not the sensor's shape",
-         .file = photo.file,
-         .where = {},
-         .found = fmt::format("{} x {} pixels", photo.width_px, photo.height_px),
-         .expected = fmt::format(
-             "{:.4g} : {:.4g} as the sensor of {:.4g} x {:.4g} mm; {}", lens.sensor.width_mm,
-             lens.sensor.height_mm, lens.sensor.width_mm, lens.sensor.height_mm,
-             turned
-                 ? "turn the picture, or give --sensor HxW"
-                 : "give --sensor WxH of the camera, or --photo-width MM of a cropped picture")});
-}
-
-LightDirection light_of(const std::string& text, FitPhoto& photo, const OpticalSystem& system,
-                        Notes& notes) {
-    if (text.starts_with("deg:")) {
-        const auto parts = split(text, ':');
-        const auto field = parts.size() > 1 ? parse_number(parts[1]) : std::nullopt;
-        const auto azimuth = parts.size() > 2 ? parse_number(parts[2]) : std::optional(90.0);
-        if (parts.size() > 3 || !field || !azimuth || std::abs(*field) > 90.0)
-            throw bad_value("--light", text, "deg:FIELD or deg:FIELD:AZIMUTH, degrees");
-        const LightDirection light{*field, *azimuth};
-        if (const auto at = image_of_light(system, light)) {
-            // Where the photograph has it, its rotation undone.
-            const double pitch_mm = photo.place.pitch_mm(photo.photo);
-            const double c = std::cos(photo.place.rotation_rad),
-                         s = std::sin(photo.place.rotation_rad);
-            mask_disc(photo.photo,
-                      photo.place.axis_column + (c * at->x_mm + s * at->y_mm) / pitch_mm,
-                      photo.place.axis_row + (c * at->y_mm - s * at->x_mm) / pitch_mm,
-                      0.01 * photo.photo.width_px + 2.0);
-        }
-        return light;
-    }
-    double column = 0.0, row = 0.0;
-    if (text == "auto") {
-        const LightSpot spot = find_light(photo.photo);
-        column = spot.column;
-        row = spot.row;
-        // Its glow reaches further than what is clipped.
-        mask_disc(photo.photo, column, row, 1.5 * spot.radius_px + 3.0);
-        notes.push_back({Note::Severity::info, photo.photo.file,
-                         fmt::format("the light was found at {:.2f},{:.2f} px, {} pixels",
-                                     photo.photo.width_px - column, row, spot.pixels)});
-    } else {
-        std::tie(column, row) = pixel("--light", text, photo.photo);
-        mask_disc(photo.photo, column, row, 0.01 * photo.photo.width_px);
-    }
-    const double pitch_mm = photo.place.pitch_mm(photo.photo);
-    const double x = (column - photo.place.axis_column) * pitch_mm,
-                 y = (row - photo.place.axis_row) * pitch_mm;
-    const double c = std::cos(photo.place.rotation_rad), s = std::sin(photo.place.rotation_rad);
-    return read_option("--light", [&] {
-        return light_imaged_at(system, {c * x - s * y, s * x + c * y});
-    });
 }
 
 FitLoss loss_of(const std::string& text) {
@@ -193,8 +129,8 @@ void run(const FitOptions& options) {
                              fmt::format("taken at f/{:.3g}, the lens stands at f/{:.3g}; give "
                                          "--f-number {:.3g}",
                                          *photo.photo.f_number, f_number, *photo.photo.f_number)});
-        photo.light =
-            light_of(std::string(lights[lights.size() == 1 ? 0 : i]), photo, system, notes);
+        const std::string light(lights[lights.size() == 1 ? 0 : i]);
+        read_option("--light", [&] { place_light(light, system, photo, notes); });
     }
 
     ProgressLine progress("fitting");

@@ -6,10 +6,10 @@
 
 #include "app/cli/exposure.h"
 #include "app/cli/ghost_reports.h"
-#include "app/cli/html_page.h"
 #include "app/cli/lens_data.h"
 #include "core/flare/flare_image.h"
 #include "core/io/chart_svg.h"
+#include "core/io/html_page.h"
 #include "core/io/image_file.h"
 #include "core/io/layout_svg.h"
 #include "core/io/lens_quantities.h"

@@ -38,6 +38,7 @@ Opens the lens-flare workbench, on a lens file if one is given.
   --ghost PAIRS   ghosts to select at first, e.g. 5-3 or 5-3,7-2
   --do ACTIONS    what to do at first, one after the other: ids of the menus' entries, e.g.
                   ghosts.as_matrix,flare.false_color
+  --study NAME    a panel to open and begin: fit (as saved with the lens), accuracy or plan
   --engine NAME   what draws flares, this time: automatic, cpu or opengl
   --size WxH      size of the window in pixels, e.g. 1366x768
   --help          this text
@@ -142,6 +143,10 @@ int run(QApplication& application, const QCommandLineParser& options) {
             window.actions()[id].trigger();
         }
     }
+    if (options.isSet("study") && !window.begin_study(options.value("study"))) {
+        return fail("--study: found " + options.value("study").toStdString() +
+                    ", expected fit, accuracy or plan");
+    }
     if (!snapshot) {
         window.welcome();
         return QApplication::exec();
@@ -189,7 +194,8 @@ int main(int argc, char** argv) {
                         {"every-panel", ""},
                         {"theme", "", "NAME"},
                         {"do", "", "ACTIONS"},
-                        {"ghost", "", "PAIR"}});
+                        {"ghost", "", "PAIRS"},
+                        {"study", "", "NAME"}});
     options.addPositionalArgument("LENS", "");
     if (!options.parse(QCoreApplication::arguments())) {
         return fail(options.errorText().toStdString() + " (see --help)");

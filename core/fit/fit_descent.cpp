@@ -26,6 +26,7 @@ Descent descend(FitEvaluator& evaluator, FitLoss loss, double loss_scale, int it
     options.parameter_tolerance = 1e-8;
     options.logging_type = ceres::SILENT;
     options.num_threads = 1;
+    options.update_state_every_iteration = static_cast<bool>(go_on);  // who looks sees the best
     Watch watch(go_on);
     if (go_on) options.callbacks.push_back(&watch);
     ceres::Solver::Summary summary;

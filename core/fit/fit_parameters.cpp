@@ -353,6 +353,15 @@ void set(FittedLens& fitted, const FitParameter& parameter, double value) {
     }
 }
 
+std::string vary_item(const FitParameter& parameter) {
+    const KindData& kind = data_of(parameter.kind);
+    std::string text(kind.key);
+    if (kind.layered) text += fmt::format(".{}", parameter.layer + 1);
+    for (std::size_t i = 0; i < parameter.rows.size(); ++i)
+        text += fmt::format("{}{}", i == 0 ? "@" : "+", parameter.rows[i] + 1);
+    return text + fmt::format("={}..{}~{}", parameter.lower, parameter.upper, parameter.prior);
+}
+
 std::vector<FitParameter> parse_vary(std::string_view text, const Prescription& lens) {
     std::vector<FitParameter> parameters;
     auto add = [&](FitParameter p, std::string_view bounds, std::string_view prior,

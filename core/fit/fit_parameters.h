@@ -64,4 +64,7 @@ void set(FittedLens& lens, const FitParameter& parameter, double value);
 /// what a shop keeps. Throws Error naming the item.
 std::vector<FitParameter> parse_vary(std::string_view text, const Prescription& lens);
 
+/// One item that parse_vary() reads as this parameter, bounds and prior spelt out.
+std::string vary_item(const FitParameter& parameter);
+
 }  // namespace ghostlight

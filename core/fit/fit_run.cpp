@@ -49,6 +49,32 @@ void FitRun::tell(double share) const {
     if (progress_) progress_(share, cost_);
 }
 
+void FitRun::show_look() const {
+    FitLook look{
+        .cost = cost_, .numbers = {}, .lens = with_coatings(current_geometry()), .photos = {}};
+    const auto coatings = evaluator_->coating_values();
+    for (std::size_t k = 0; k < layout_.lens_count(); ++k) {
+        const bool moves_no_ray = k < layout_.coatings.size();
+        FittedNumber& number = look.numbers.emplace_back();
+        number.parameter =
+            moves_no_ray ? layout_.coatings[k] : layout_.geometry[k - layout_.coatings.size()];
+        number.value = moves_no_ray
+                           ? coatings[k]
+                           : number.parameter.start + evaluator_->x[k] * number.parameter.prior;
+    }
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+        FittedPhoto& photo = look.photos.emplace_back();
+        photo.file = photos_[i].photo.file;
+        photo.light = photos_[i].light;
+        photo.frame = views_[i].data.frame;
+        photo.used = views_[i].data.used;
+        photo.measured = views_[i].data.value;
+        photo.after = evaluator_->model(i);
+        photo.residuals = evaluator_->residuals(i);
+    }
+    request_.look(look);
+}
+
 void FitRun::prepare() {
     for (const FitParameter& each : request_.vary)
         (is_coating(each.kind) ? layout_.coatings : layout_.geometry).push_back(each);

@@ -35,6 +35,8 @@ class FitRun {
    private:
     void check_stop() const;
     void tell(double share) const;
+    /// Shows the iteration that is done, where somebody looks.
+    void show_look() const;
     void prepare();
     /// The lens with the geometry as it stands; coatings are the weights' business.
     FittedLens current_geometry() const;

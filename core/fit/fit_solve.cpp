@@ -129,6 +129,7 @@ double FitRun::solve(int iterations) {
             cost_ = cost;
             report_.cost_curve.push_back(cost);
             tell(share_);
+            if (request_.look) show_look();
             return !stop_.stop_requested();
         });
     report_.iterations += descent.iterations;

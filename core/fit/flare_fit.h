@@ -30,6 +30,8 @@ struct FitPhoto {
 enum class FitLoss { none, huber, cauchy, tukey };
 std::string name(FitLoss loss);
 
+struct FitLook;
+
 struct FitRequest {
     Spectrum spectrum = StandardLight{};
     std::vector<FitParameter> vary;
@@ -50,6 +52,8 @@ struct FitRequest {
     std::size_t suggestions = 0;        ///< light angles tried for the next photograph
     std::uint64_t seed = 1;
     unsigned threads = 0;
+    /// Called after every iteration, on the fit's thread; may wait, which pauses the fit.
+    std::function<void(const FitLook&)> look = {};
 };
 
 /// How well a number is known.
@@ -152,6 +156,14 @@ struct FitReport {
     std::vector<std::string> remarks;
     std::vector<Suggestion> suggestions;
     double seconds = 0.0, iteration_ms = 0.0, basis_ms = 0.0;
+};
+
+/// A fit as it stands while it goes on.
+struct FitLook {
+    double cost = 0.0;
+    std::vector<FittedNumber> numbers;  ///< values alone, of those that are felt
+    FittedLens lens;
+    std::vector<FittedPhoto> photos;  ///< frame, used, measured and after alone
 };
 
 using FitProgress = std::function<void(double share, double cost)>;

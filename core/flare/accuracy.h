@@ -8,9 +8,19 @@
 #include <vector>
 
 #include "core/flare/flare_image.h"
+#include "core/flare/flare_scene.h"
 #include "core/flare/picture_errors.h"
 
 namespace ghostlight {
+
+/// Another engine that is measured beside the CPU's: the core knows no OpenGL.
+struct AccuracyEngine {
+    std::string name;
+    /// Draws a planned picture, as render_planned() does; nothing when stopped.
+    std::function<std::optional<FlareImage>(const FlareScene&, const FlareRequest&,
+                                            std::stop_token)>
+        draw;
+};
 
 /// Error against run time: every method at every setting of its knob against the reference.
 struct AccuracyRequest {
@@ -24,6 +34,7 @@ struct AccuracyRequest {
     bool ablations = true;   ///< measure the planned method without each of its economies
     std::size_t ghosts = 5;  ///< strongest ghosts whose light, place and size are compared
     unsigned threads = 0;    ///< 0 = all cores
+    std::vector<AccuracyEngine> engines = {};
 };
 
 /// One setting of one method.

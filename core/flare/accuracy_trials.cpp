@@ -27,6 +27,11 @@ class Trials {
             by_tolerance.push_back(planned("planned", "tolerance", tolerance,
                                            FlareScene::usual_samples,
                                            [=](FlareRequest& r) { r.tolerance = tolerance; }));
+        for (const AccuracyEngine& engine : request_.engines) {
+            auto& by_engine = families.emplace_back();
+            for (const double tolerance : {0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001})
+                by_engine.push_back(drawn_by(engine, tolerance));
+        }
         auto& by_quick = families.emplace_back();
         for (const double tolerance : {0.1, 0.05, 0.02})
             by_quick.push_back(planned("planned, quick search", "tolerance", tolerance,
@@ -114,6 +119,18 @@ class Trials {
                                    ? render_paraxial(*scene, request, stop)
                                    : render_planned(*scene, request, stop);
                     });
+                }};
+    }
+    AccuracyTrial drawn_by(const AccuracyEngine& engine, double tolerance) const {
+        FlareRequest request = base();
+        request.tolerance = tolerance;
+        return {"planned, " + engine.name, "tolerance", tolerance, false,
+                [&lens = lens_, &draw = engine.draw, stop = stop_, request] {
+                    auto scene = std::make_shared<FlareScene>(
+                        flare_scene(lens, request.spectrum, FlareScene::usual_samples,
+                                    request.threads, request.coating_model));
+                    return std::function(
+                        [&draw, request, scene, stop] { return draw(*scene, request, stop); });
                 }};
     }
     /// The ghosts of the least irradiance as the veil's series.

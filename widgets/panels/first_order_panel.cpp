@@ -21,6 +21,7 @@
 #include "widgets/panels/empty_state.h"
 #include "widgets/panels/plain_table.h"
 #include "widgets/panels/table_delegate.h"
+#include "widgets/panels/veiling_strip.h"
 
 namespace ghostlight {
 
@@ -59,6 +60,7 @@ FirstOrderPanel::FirstOrderPanel(Document& document, const Actions& actions, QWi
     column->setSpacing(0);
     column->addWidget(header_);
     column->addWidget(pages_, 1);
+    column->addWidget(new VeilingStrip(document_));
 
     job_ = std::make_unique<NewestJob<Request>>(
         [this](const Request& request, const std::stop_token&) { work_on(request); });

@@ -1,16 +1,16 @@
-#include "app/cli/fit_page.h"
+#include "core/io/fit_page.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/cli/html_page.h"
 #include "core/flare/flare_image.h"
 #include "core/io/chart_svg.h"
+#include "core/io/html_page.h"
 #include "core/io/image_file.h"
 
-namespace ghostlight::cli {
+namespace ghostlight {
 namespace {
 
 /// Residuals beyond this many standard deviations are shown in full red or blue.
@@ -238,4 +238,4 @@ std::string fit_page(const FitReport& report, const std::string& lens, const std
     return html + "</body></html>\n";
 }
 
-}  // namespace ghostlight::cli
+}  // namespace ghostlight

@@ -5,7 +5,7 @@
 #include "core/fit/flare_fit.h"
 #include "core/io/table.h"
 
-namespace ghostlight::cli {
+namespace ghostlight {
 
 /// The fitted numbers, one a row.
 Table fit_table(const FitReport& report);
@@ -16,4 +16,4 @@ Table fit_ghost_table(const FitReport& report);
 /// correlations, what is not determined, settings.
 std::string fit_page(const FitReport& report, const std::string& lens, const std::string& command);
 
-}  // namespace ghostlight::cli
+}  // namespace ghostlight

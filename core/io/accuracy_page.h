@@ -3,17 +3,17 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/options.h"
 #include "core/flare/accuracy.h"
 #include "core/io/log_chart_svg.h"
 #include "core/io/table.h"
 
-namespace ghostlight::cli {
+namespace ghostlight {
 
 /// One lens with one light and one stop, measured.
 struct AccuracyCase {
-    LoadedLens loaded;
-    std::string short_name;
+    std::string heading;  ///< the lens and its configuration, for people
+    std::string short_name, configuration, file;
+    std::size_t surfaces = 0;
     double field_deg = 0.0, closed_stops = 0.0;
     AccuracyReport report;
 };
@@ -51,4 +51,4 @@ std::string accuracy_markdown(const AccuracyRun& run, const std::string& chart_f
 /// The name of a case's chart, without a folder.
 std::string chart_file(const AccuracyCase& one);
 
-}  // namespace ghostlight::cli
+}  // namespace ghostlight

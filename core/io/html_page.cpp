@@ -1,4 +1,4 @@
-#include "app/cli/html_page.h"
+#include "core/io/html_page.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "core/io/chart_svg.h"
 
-namespace ghostlight::cli {
+namespace ghostlight {
 
 const std::string_view html_style = R"(
 :root{color-scheme:light}
@@ -82,4 +82,4 @@ std::string html_table(const Table& table, const std::vector<HtmlColumn>& column
     return html + "</tbody></table></div>\n";
 }
 
-}  // namespace ghostlight::cli
+}  // namespace ghostlight

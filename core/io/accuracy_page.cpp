@@ -1,4 +1,4 @@
-#include "app/cli/accuracy_page.h"
+#include "core/io/accuracy_page.h"
 
 #include <fmt/format.h>
 
@@ -6,11 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "app/cli/html_page.h"
-#include "app/cli/report.h"
 #include "core/io/chart_svg.h"
+#include "core/io/html_page.h"
 
-namespace ghostlight::cli {
+namespace ghostlight {
 namespace {
 
 const AccuracyPoint* point_of(const AccuracyReport& report, const std::string& method,
@@ -22,7 +21,7 @@ const AccuracyPoint* point_of(const AccuracyReport& report, const std::string& m
 }
 
 std::string title_of(const AccuracyCase& one) {
-    std::string title = fmt::format("{}, {:.4g}°", lens_heading(one.loaded), one.field_deg);
+    std::string title = fmt::format("{}, {:.4g}°", one.heading, one.field_deg);
     if (one.closed_stops > 0.0) title += fmt::format(", closed {:.3g} stops", one.closed_stops);
     return title;
 }
@@ -130,7 +129,7 @@ Table accuracy_rows(const AccuracyRun& run) {
     for (const AccuracyCase& one : run.cases)
         for (const AccuracyPoint& p : one.report.points)
             table.rows.push_back({one.short_name,
-                                  one.loaded.configuration,
+                                  one.configuration,
                                   one.field_deg,
                                   one.closed_stops,
                                   p.method,
@@ -162,8 +161,8 @@ Table ghost_accuracy_rows(const AccuracyRun& run) {
     for (const AccuracyCase& one : run.cases)
         for (const GhostAccuracy& g : one.report.by_ghost)
             table.rows.push_back({one.short_name, one.field_deg, one.closed_stops,
-                                  name(g.path, one.loaded.lens.surfaces.size()), g.method,
-                                  g.flux_error, g.centroid_shift_px, g.size_error});
+                                  name(g.path, one.surfaces), g.method, g.flux_error,
+                                  g.centroid_shift_px, g.size_error});
     return table;
 }
 
@@ -318,8 +317,7 @@ std::string accuracy_html(const AccuracyRun& run) {
     }
     html += "<h2>Lenses and settings</h2>\n<pre>" + xml_text(run.command) + "\n";
     for (const AccuracyCase& one : run.cases)
-        html +=
-            fmt::format("\n{}: {}", xml_text(one.short_name), xml_text(one.loaded.file.string()));
+        html += fmt::format("\n{}: {}", xml_text(one.short_name), xml_text(one.file));
     html += fmt::format("\n{}\nprogram: ghostlight-cli " GHOSTLIGHT_VERSION "</pre>\n",
                         xml_text(run.machine));
     return html + "</body></html>\n";
@@ -430,4 +428,4 @@ std::string accuracy_markdown(const AccuracyRun& run, const std::string& chart_f
     return text;
 }
 
-}  // namespace ghostlight::cli
+}  // namespace ghostlight

@@ -6,7 +6,7 @@
 
 #include "core/io/table.h"
 
-namespace ghostlight::cli {
+namespace ghostlight {
 
 /// The style sheet of all pages: quiet, and fit for print.
 extern const std::string_view html_style;
@@ -23,4 +23,4 @@ struct HtmlColumn {
 /// Some of a table's columns, numbers to four digits.
 std::string html_table(const Table& table, const std::vector<HtmlColumn>& columns);
 
-}  // namespace ghostlight::cli
+}  // namespace ghostlight

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/fit/flare_fit.h"
+
+namespace ghostlight {
+
+/// A lens with fitted numbers in it. They were fitted to the lens as `configuration` has it: gaps
+/// and the stop's size go where that configuration keeps its own.
+Prescription with_fitted(const Prescription& lens, const std::string& configuration,
+                         const std::vector<FittedNumber>& numbers);
+
+}  // namespace ghostlight
