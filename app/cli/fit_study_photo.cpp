@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/cli/fit_page.h"
 #include "app/cli/options.h"
 #include "core/fit/light_place.h"
 #include "core/flare/flare_image.h"
+#include "core/io/fit_page.h"
 #include "core/io/image_file.h"
 #include "core/io/lens_file.h"
 #include "core/units.h"
