@@ -8,7 +8,6 @@
 #include <vtkContextScene.h>
 #include <vtkDoubleArray.h>
 #include <vtkPen.h>
-#include <vtkPlotArea.h>
 #include <vtkPlotLine.h>
 #include <vtkPlotPoints.h>
 #include <vtkRenderer.h>
@@ -32,6 +31,7 @@ namespace ghostlight {
 namespace {
 
 constexpr double mark_px = 7.0, ring_px = 13.0, line_px = 1.5;
+constexpr int least_contrast = 40;  ///< of 255
 constexpr int label_px = 12, title_px = 13;
 
 struct Decades {
@@ -160,17 +160,6 @@ void LogChartView::build() {
     x.widen();
     y.widen();
     const int ratio = std::max(1, built_ratio_);
-    if (shown_->band_y && *shown_->band_y > 0.0) {
-        auto* band = vtkPlotArea::SafeDownCast(plot_->AddPlot(vtkChart::AREA));
-        const double top = std::log10(*shown_->band_y);
-        band->SetInputData(table_of({{x.low, x.high}, {y.low, y.low}, {top, top}}));
-        band->SetInputArray(0, "c0");
-        band->SetInputArray(1, "c1");
-        band->SetInputArray(2, "c2");
-        band->SetLabel("not resolved: 3 × the reference's error");
-        color_in(band, colors.dim, 60);
-        band->GetBrush()->SetOpacityF(0.25);
-    }
     if (shown_->diagonal) {
         const double low = std::max(x.low, y.low), high = std::min(x.high, y.high);
         auto* line = plot_->AddPlot(vtkChart::LINE);
@@ -196,7 +185,10 @@ void LogChartView::build() {
                 ring_y.push_back(v);
             }
         }
-        const QColor color(QString::fromStdString(series.color));
+        QColor color(QString::fromStdString(series.color));
+        if (std::abs(color.lightness() - colors.panel.lightness()) < least_contrast) {
+            color = colors.text;  // colours are chosen for paper
+        }
         if (series.joined && all_x.size() > 1) {
             auto* line = plot_->AddPlot(vtkChart::LINE);
             line->SetInputData(table_of({all_x, all_y}), 0, 1);
@@ -255,11 +247,32 @@ void LogChartView::prepare_rendering(int width_px, int) {
 }
 
 void LogChartView::paint_overlay(QPainter& painter) {
+    const Palette& colors = current_palette();
     if (!shown_) {
-        painter.setPen(current_palette().dim);
+        painter.setPen(colors.dim);
         painter.drawText(rect().adjusted(16, 16, -16, -16), Qt::AlignCenter | Qt::TextWordWrap,
                          text_);
+        return;
     }
+    if (!shown_->band_y || !(*shown_->band_y > 0.0) || !plot_->GetVisible()) {
+        return;
+    }
+    // VTK's axes are in device pixels from the lower left corner.
+    vtkAxis* across = plot_->GetAxis(vtkAxis::BOTTOM);
+    vtkAxis* up = plot_->GetAxis(vtkAxis::LEFT);
+    const double ratio = std::max(1, built_ratio_);
+    const double low = up->GetMinimum(), high = up->GetMaximum();
+    const double share = std::clamp((std::log10(*shown_->band_y) - low) / (high - low), 0.0, 1.0);
+    const double bottom = up->GetPoint1()[1], top = up->GetPoint2()[1];
+    const QRectF band(QPointF(across->GetPoint1()[0] / ratio,
+                              height() - (bottom + share * (top - bottom)) / ratio),
+                      QPointF(across->GetPoint2()[0] / ratio, height() - bottom / ratio));
+    QColor faint = colors.dim;
+    faint.setAlphaF(0.16F);
+    painter.fillRect(band, faint);
+    painter.setPen(colors.dim);
+    painter.drawText(band.adjusted(8, 3, -8, -3), Qt::AlignRight | Qt::AlignTop,
+                     QString::fromStdString(shown_->band_name));
 }
 
 }  // namespace ghostlight

@@ -12,7 +12,7 @@ namespace ghostlight {
 
 namespace {
 
-constexpr int height_percent = 46;  ///< of the window, when one is opened at the bottom
+constexpr int height_percent = 42;  ///< of the window, when one is opened at the bottom
 
 }  // namespace
 

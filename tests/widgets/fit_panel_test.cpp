@@ -74,7 +74,7 @@ class FitPanelTest : public testing::Test {
     /// Few samples and one first guess, by the set-up as a file holds it.
     void make_quick() {
         FitSetup setup = fit_setup_from_json(document_.fit());
-        setup.spectrum = "620";
+        setup.spectrum = "620 nm";
         setup.across = 48;
         setup.starts = 1;
         document_.edit_fit(fit_setup_to_json(setup), "make it quick");
@@ -82,9 +82,7 @@ class FitPanelTest : public testing::Test {
     bool settle() {
         return QTest::qWaitFor([this] { return panel_.is_settled(); }, test::patience_ms);
     }
-    void click(const QString& name) {
-        QTest::mouseClick(&panel_.button(name), Qt::LeftButton);
-    }
+    void click(const QString& name) { QTest::mouseClick(&panel_.button(name), Qt::LeftButton); }
     void type_spec(const QString& text) {
         panel_.spec().setFocus();
         panel_.spec().selectAll();
@@ -269,8 +267,8 @@ TEST_F(FitPanelTest, FitFindsTheCoatingAndAppliesItAsOneStep) {
     EXPECT_EQ(found.knowledge, FitKnowledge::determined);
     EXPECT_FALSE(panel_.results().costs().curves().empty());
     EXPECT_FALSE(panel_.results().reflectances().curves().empty());
-    EXPECT_TRUE(panel_.results().words().contains(
-        QString::fromStdString(panel_.report()->verdict)));
+    EXPECT_TRUE(
+        panel_.results().words().contains(QString::fromStdString(panel_.report()->verdict)));
     const auto shown = [&](FitParameterModel::Column column) {
         return panel_.model().index(0, column).data().toString();
     };
@@ -305,16 +303,12 @@ TEST_F(FitPanelTest, CancelledFitKeepsItsBestIteration) {
     click("start");
     // Until there is a first step, and then no further.
     ASSERT_TRUE(QTest::qWaitFor(
-        [this] {
-            return !panel_.results().costs().curves().empty() || !panel_.is_running();
-        },
+        [this] { return !panel_.results().costs().curves().empty() || !panel_.is_running(); },
         test::patience_ms));
     ASSERT_TRUE(panel_.is_running());
     click("pause");
     EXPECT_EQ(panel_.state(), "paused");
-    const auto points = [this] {
-        return panel_.results().costs().curves().front().points.size();
-    };
+    const auto points = [this] { return panel_.results().costs().curves().front().points.size(); };
     QTest::qWait(300);  // the iteration in work
     const auto before = points();
     QTest::qWait(300);

@@ -58,11 +58,14 @@ std::string joined(const std::vector<FitParameterModel::Row>& rows, bool varies)
 
 std::vector<FitParameterModel::Row> rows_of(const FitSetup& setup, const Prescription& lens) {
     std::vector<FitParameterModel::Row> rows;
-    for (const FitParameter& each : parse_vary(setup.vary, lens)) {
-        rows.push_back({each, true});
-    }
-    for (const FitParameter& each : parse_vary(setup.held, lens)) {
-        rows.push_back({each, false});
+    for (const bool varies : {true, false}) {
+        const std::string& text = varies ? setup.vary : setup.held;
+        if (text.empty()) {
+            continue;  // which parse_vary() refuses
+        }
+        for (const FitParameter& each : parse_vary(text, lens)) {
+            rows.push_back({each, varies});
+        }
     }
     std::ranges::stable_sort(rows, [](const auto& a, const auto& b) {
         return std::pair(a.parameter.kind, a.parameter.rows) <
@@ -79,7 +82,7 @@ std::string command_of(const FitSetup& setup, const std::string& lens) {
         lights += (lights.empty() ? "" : ";") + each.light;
     }
     return "fit " + lens + " --photo " + photos + " --light \"" + lights + "\" --vary " +
-           setup.vary + " --spectrum " + setup.spectrum + (setup.merge ? " --merge" : "") +
+           setup.vary + " --spectrum \"" + setup.spectrum + "\"" + (setup.merge ? " --merge" : "") +
            " --seed " + std::to_string(setup.seed);
 }
 

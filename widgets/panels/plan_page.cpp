@@ -41,6 +41,10 @@ PlanPage::PlanPage(QWidget* parent)
         {tr("Not computed"), tr("Ghosts"), tr("At most"), tr("Known"), tr("Why")});
     table_->horizontalHeaderItem(bound)->setToolTip(
         tr("What it can change of the picture: L1 over the light on the sensor"));
+    table_->setItemDelegate(new TableDelegate(-1, -1, this));
+    for (const int number : {ghosts, bound}) {
+        table_->horizontalHeaderItem(number)->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+    }
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setShowGrid(false);
