@@ -352,6 +352,7 @@ TEST(EditingTest, TheFlareFollowsTheHandleSlow) {
     ASSERT_TRUE(shown.settle());
     const Prescription before = window.document().lens();
     PrescriptionPanel& panel = window.prescription_panel();
+    EXPECT_EQ(panel.handle().editor().text(), "42.97") << "the first surface is in hand at first";
     panel.table().setFocus();
     panel.table().setCurrentIndex(panel.model().index(0, PrescriptionModel::thickness));
     const int steps = window.document().history().count();

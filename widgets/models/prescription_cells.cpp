@@ -47,8 +47,8 @@ QString shown_size(double mm) {
 
 QString glass_numbers(const Medium& medium) {
     return QStringLiteral("%1 / %2").arg(
-        QString::number(refractive_index(medium, d_line_nm), 'f', 5),
-        std::isfinite(abbe_number(medium)) ? QString::number(abbe_number(medium), 'f', 2) : "∞");
+        QString::number(refractive_index(medium, d_line_nm), 'f', 4),
+        std::isfinite(abbe_number(medium)) ? QString::number(abbe_number(medium), 'f', 1) : "∞");
 }
 
 /// A curve as typed into the column of radii or of curvatures.

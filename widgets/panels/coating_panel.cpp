@@ -142,6 +142,9 @@ void CoatingPanel::build() {
     }
     kind_->setAccessibleName("Kind of coating");
     model_->setHorizontalHeaderLabels({"#", "Material", "n 550", "nm", "k"});
+    for (const int column : {number_column, index_column, thickness_column, k_column}) {
+        model_->horizontalHeaderItem(column)->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+    }
     model_->horizontalHeaderItem(number_column)
         ->setToolTip("Layers count from the side that light comes from, or from the air");
     model_->horizontalHeaderItem(material_column)

@@ -157,6 +157,9 @@ ConfigurationPanel::ConfigurationPanel(Document& document, QWidget* parent)
         }
         const std::string from = item->data(name_role).toString().toStdString();
         const std::string to = item->text().trimmed().toStdString();
+        if (to == from) {
+            return;  // what was refused has given way
+        }
         attempt("rename the configuration " + shown_name(from), [&](DocumentState state) {
             return with_configuration_renamed(std::move(state), from, to);
         });

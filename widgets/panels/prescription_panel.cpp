@@ -88,14 +88,7 @@ PrescriptionPanel::PrescriptionPanel(Document& document, const Actions& actions,
     connect(&document_, &Document::changed, this, &PrescriptionPanel::follow_document);
     connect(&document_, &Document::opened, this,
             // After the views have got the new rows.
-            [this] {
-                QTimer::singleShot(0, this, [this] {
-                    show_columns();
-                    if (current_row() < 0 && model_->rowCount() > 0) {
-                        go_to(0);  // the panels about a surface have one to begin with
-                    }
-                });
-            });
+            [this] { QTimer::singleShot(0, this, &PrescriptionPanel::show_columns); });
     connect_actions(actions);
     connect_cells(actions);
     connect_handle();

@@ -84,6 +84,18 @@ void PrescriptionPanel::connect_handle() {
                 handle_->set_cell(current);
                 Q_EMIT row_chosen(current.row());
             });
+    // The handle, and the panels about a surface, have one to begin with; and after rows have come
+    // or gone, the one that is in hand by now.
+    connect(
+        model_, &QAbstractItemModel::modelReset, this,
+        [this] {
+            if (current_row() < 0 && model_->rowCount() > 0) {
+                go_to(0);
+            }
+            handle_->set_cell(table_->currentIndex());
+            Q_EMIT row_chosen(current_row());
+        },
+        Qt::QueuedConnection);
     // The middle button draws the number under the cursor, in any cell.
     auto* scrub = new Scrub(*table_->viewport(), Qt::MiddleButton);
     connect(scrub, &Scrub::begun, this, [this](const QPoint& at) {
