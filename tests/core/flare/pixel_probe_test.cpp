@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/ghosts/ghost_table.h"
+#include "core/units.h"
 #include "tests/support/optics_kit.h"
 
 namespace ghostlight {
