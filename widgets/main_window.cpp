@@ -139,7 +139,7 @@ void MainWindow::build_panels() {
     report_dock_ = add_dock(report_, "import_report", "Import report", Qt::BottomDockWidgetArea);
     understanding_ = std::make_unique<Understanding>(Understanding::Parts{
         *this, document_, selection_, actions_, *prescription_, *layout_, *flare_, *ghosts_,
-        [this](QWidget* panel, const char* name, const QString& title) {
+        remembers_, [this](QWidget* panel, const char* name, const QString& title) {
             return add_dock(panel, name, title, Qt::BottomDockWidgetArea);
         }});
 

@@ -208,10 +208,12 @@ void Understanding::connect_looks() {
     // A switch keeps its place between runs.
     const auto connect_switch = [&](const char* id, bool otherwise, std::function<void(bool)> set) {
         QAction& action = actions[id];
-        action.setChecked(settings::is_on(id, otherwise));
+        action.setChecked(parts_.remembers ? settings::is_on(id, otherwise) : otherwise);
         set(action.isChecked());
-        connect(&action, &QAction::toggled, this, [id, set](bool on) {
-            settings::set_on(id, on);
+        connect(&action, &QAction::toggled, this, [this, id, set](bool on) {
+            if (parts_.remembers) {
+                settings::set_on(id, on);
+            }
             set(on);
         });
     };
@@ -270,9 +272,13 @@ void Understanding::set_full_screen(bool on) {
 }
 
 void Understanding::connect_panels() {
-    const auto bring = [](QDockWidget* dock) {
+    const auto bring = [this](QDockWidget* dock) {
+        const bool was_hidden = dock->isHidden();
         dock->show();
         dock->raise();
+        if (was_hidden && !dock->isFloating()) {
+            parts_.window.resizeDocks({dock}, {parts_.window.height() * 34 / 100}, Qt::Vertical);
+        }
     };
     parts_.actions.on("sweep.run", [this, bring] {
         bring(sweep_dock_);

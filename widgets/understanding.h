@@ -38,6 +38,7 @@ class Understanding : public QObject {
         LayoutPanel& layout;
         FlarePanel& flare;
         GhostPanel& ghosts;
+        bool remembers;  ///< switches are kept between runs
         /// Makes a dock at the bottom: panel, object's name, title.
         std::function<QDockWidget*(QWidget*, const char*, const QString&)> add_dock;
     };

@@ -20,7 +20,8 @@ namespace {
 constexpr std::size_t most_curves = 6;  // besides those selected
 constexpr double margin_px = 12.0, left_px = 58.0, legend_px = 170.0, strip_px = 72.0;
 constexpr double below_px = 34.0, reach_px = 7.0;
-constexpr double shown_decades = 5.0;
+constexpr double shown_decades = 4.0;
+constexpr double label_px = 15.0;  // between two labels of the scale, at least
 
 QImage toned(const FlareImage& image, double exposure_ev) {
     QImage picture(image.width_px, image.height_px, QImage::Format_RGB32);
@@ -174,10 +175,15 @@ void SweepView::paintEvent(QPaintEvent*) {
     painter.setPen(QPen(colors.line, 1.0));
     painter.setBrush(Qt::NoBrush);
     painter.drawRect(box);
+    double last_label = box.bottom() + label_px;
     for (int decade = static_cast<int>(std::ceil(bottom_)); decade <= std::floor(top_); ++decade) {
         const double y = box.bottom() - (decade - bottom_) / (top_ - bottom_) * box.height();
         painter.setPen(QPen(colors.line, 1.0));
         painter.drawLine(QPointF(box.left(), y), QPointF(box.right(), y));
+        if (y > last_label - label_px) {
+            continue;
+        }
+        last_label = y;
         painter.setPen(colors.dim);
         painter.drawText(QRectF(0.0, y - 8.0, left_px - 6.0, 16.0),
                          Qt::AlignRight | Qt::AlignVCenter, significant(std::pow(10.0, decade), 1));

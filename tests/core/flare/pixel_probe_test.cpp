@@ -21,8 +21,8 @@ void expect_shares_sum_to_the_picture(const Prescription& lens, const FlareReque
     const double pitch_mm = image->sensor_width_mm / image->width_px;
     double apart = 0.0, all = 0.0;
     std::size_t lit = 0;
-    for (int row = 1; row < image->height_px; row += 5)
-        for (int column = 2; column < image->width_px; column += 7) {
+    for (int row = 1; row < image->height_px; row += 11)
+        for (int column = 2; column < image->width_px; column += 13) {
             const double x = (column + 0.5) * pitch_mm - 0.5 * image->sensor_width_mm;
             const double y = (row + 0.5) * pitch_mm - 0.5 * image->height_px * pitch_mm;
             const auto pixel = probe->at(x, y);
@@ -43,14 +43,14 @@ void expect_shares_sum_to_the_picture(const Prescription& lens, const FlareReque
             apart += std::abs(pixel->irradiance - shown);
             all += shown;
         }
-    EXPECT_GT(lit, 100U);
+    EXPECT_GT(lit, 30U);
     EXPECT_LT(apart, 2.0 * request.tolerance * all);
 }
 
 TEST(PixelProbe, SharesSumToThePicture) {
     FlareRequest request;
     request.light = {8.0, 60.0};
-    request.width_px = 320;
+    request.width_px = 200;
     request.tolerance = 0.02;
     expect_shares_sum_to_the_picture(bundled("cooke_triplet_50_f5"), request);
     request.spectrum = parse_spectrum("D65");
@@ -62,7 +62,7 @@ TEST(PixelProbe, AsksLensesThatNoPlanDraws) {
     lens.sensor.reflectance = UniformReflectance{0.1};
     FlareRequest request;
     request.light = {8.0, 60.0};
-    request.width_px = 240;
+    request.width_px = 160;
     ASSERT_FALSE(can_be_planned(compile(lens, d_line_nm), request.light));
     expect_shares_sum_to_the_picture(lens, request);
 }
@@ -72,7 +72,7 @@ TEST(PixelProbe, AGhostsPixelsAddUpToItsFluxInTheTable) {
     const Prescription lens = bundled("cooke_triplet_50_f5");
     FlareRequest request;
     request.light = {8.0, 90.0};
-    request.width_px = 96;
+    request.width_px = 48;
     request.tolerance = 0.005;
     const auto probe = PixelProbe::make(lens, request);
     GhostTableRequest wanted;
