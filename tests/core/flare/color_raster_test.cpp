@@ -103,7 +103,7 @@ TEST(ColorRaster, OneChannelIsTheSame) {
         ASSERT_NEAR(pixels[i], values[i], float_rounding * (1.0 + std::abs(values[i])));
 }
 
-TEST(ColorRaster, LeavesWhatItDoesNotTouchAndStartsCleanAgain) {
+TEST(ColorRaster, AddsToWhatIsThereAndStartsCleanAgain) {
     const std::vector<Point> square = {{10, 10}, {10, 12}, {12, 12}, {12, 10}};
     const auto edges = edges_of<1>(square, {1.0}, 0.0, 0.0);
     for (int round = 0; round < 2; ++round) {
@@ -111,9 +111,9 @@ TEST(ColorRaster, LeavesWhatItDoesNotTouchAndStartsCleanAgain) {
         band.add(edges, all_of(edges.size()));
         std::vector<float> pixels(width * height, -7.0F);
         band.resolve(pixels);
-        EXPECT_FLOAT_EQ(pixels[11 * width + 11], 1.0F);
+        EXPECT_FLOAT_EQ(pixels[11 * width + 11], -6.0F);
         EXPECT_FLOAT_EQ(pixels[11 * width + 40], -7.0F) << "not touched";
-        EXPECT_FLOAT_EQ(pixels[20 * width + 11], 0.0F) << "in the touched columns";
+        EXPECT_FLOAT_EQ(pixels[20 * width + 11], -7.0F) << "in the touched columns";
     }
 }
 
