@@ -20,8 +20,9 @@ struct SynthOptions {
     LensOptions lens;
     LightOptions light{.field = "0"};
     SpectrumOptions spectrum{.wavelength = {}, .spectrum = "D65"};
-    std::string width = "720", tolerance = "0.01", exposure = "auto", gains = "1,1,1", shading = "0",
-                noise = "0", read_noise = "0", background = "0", offset = "0,0", bits, seed = "1";
+    std::string width = "720", tolerance = "0.01", exposure = "auto", gains = "1,1,1",
+                shading = "0", noise = "0", read_noise = "0", background = "0", offset = "0,0",
+                bits, seed = "1";
     std::string file;
 };
 
@@ -51,9 +52,8 @@ void run(const SynthOptions& options) {
     request.spectrum = spectrum_of(spectrum);
     request.width_px = static_cast<int>(integer_value(
         "--width", options.width, "a whole number of pixels from 16 to 16384", 16, 16384));
-    request.tolerance =
-        number_value("--tolerance", options.tolerance, "a number from 1e-5 to 0.5",
-                     [](double value) { return value >= 1e-5 && value <= 0.5; });
+    request.tolerance = number_value("--tolerance", options.tolerance, "a number from 1e-5 to 0.5",
+                                     [](double value) { return value >= 1e-5 && value <= 0.5; });
     if (options.exposure != "auto")
         request.exposure_ev =
             number_value("--exposure", options.exposure, "auto, or stops from -64 to 64",
