@@ -26,9 +26,9 @@
 namespace ghostlight {
 namespace {
 
-class AccuracyPanelTest : public testing::Test {
+class AccuracyPanelSlow : public testing::Test {
    protected:
-    AccuracyPanelTest() : actions_(&host_) {}
+    AccuracyPanelSlow() : actions_(&host_) {}
     void show(MakeGlEngine make_gl) {
         panel_ = std::make_unique<AccuracyPanel>(document_, actions_, std::move(make_gl));
         panel_->resize(900, 480);
@@ -54,7 +54,7 @@ class AccuracyPanelTest : public testing::Test {
     std::unique_ptr<AccuracyPanel> panel_;
 };
 
-TEST_F(AccuracyPanelTest, MeasuresBothEnginesAndSaves) {
+TEST_F(AccuracyPanelSlow, MeasuresBothEnginesAndSaves) {
     show(offscreen_gl_engine);
     EXPECT_FALSE(panel_->save_button().isEnabled());
     QTest::mouseClick(&panel_->measure_button(), Qt::LeftButton);
@@ -87,7 +87,7 @@ TEST_F(AccuracyPanelTest, MeasuresBothEnginesAndSaves) {
     EXPECT_TRUE(panel_->state().contains("measure again")) << panel_->state().toStdString();
 }
 
-TEST_F(AccuracyPanelTest, WithoutOpenGlTheCpuIsMeasuredAndTheReasonSaid) {
+TEST_F(AccuracyPanelSlow, WithoutOpenGlTheCpuIsMeasuredAndTheReasonSaid) {
     show([]() -> GlEngine { throw Error("no driver here"); });
     QTest::mouseClick(&panel_->measure_button(), Qt::LeftButton);
     ASSERT_TRUE(settle());
@@ -97,7 +97,7 @@ TEST_F(AccuracyPanelTest, WithoutOpenGlTheCpuIsMeasuredAndTheReasonSaid) {
     EXPECT_TRUE(panel_->reason().contains("no driver here")) << panel_->reason().toStdString();
 }
 
-TEST_F(AccuracyPanelTest, CancelEndsAtOnce) {
+TEST_F(AccuracyPanelSlow, CancelEndsAtOnce) {
     show(offscreen_gl_engine);
     panel_->width_px().setValue(2048);
     panel_->reference_percent().setValue(0.05);
@@ -109,7 +109,7 @@ TEST_F(AccuracyPanelTest, CancelEndsAtOnce) {
     EXPECT_TRUE(panel_->measure_button().isEnabled());
 }
 
-TEST(PlanPageTest, SaysWhatThePictureLeavesOutAndItsTrueError) {
+TEST(PlanPageSlow, SaysWhatThePictureLeavesOutAndItsTrueError) {
     test::OpenWindow open(test::tessar());
     ASSERT_TRUE(open.window.begin_study("plan"));
     ASSERT_TRUE(open.settle());
@@ -119,7 +119,7 @@ TEST(PlanPageTest, SaysWhatThePictureLeavesOutAndItsTrueError) {
     EXPECT_TRUE(page.measure().isEnabled());
 }
 
-TEST(VeilingStripTest, WorksOutTheIndexOfTheCore) {
+TEST(VeilingStripSlow, WorksOutTheIndexOfTheCore) {
     Document document;
     VeilingStrip strip(document);
     strip.show();
