@@ -15,8 +15,8 @@
 namespace ghostlight {
 namespace {
 
-/// Cells whose meshes are held at once: 64 MB of edges, which a picture within 2 % seldom has.
-constexpr std::size_t most_cells_at_once = std::size_t{1} << 18;
+/// Cells whose meshes are held at once: 32 MB of edges, more than most pictures within 4 % have.
+constexpr std::size_t most_cells_at_once = std::size_t{1} << 17;
 
 struct Batch {
     std::size_t first = 0, count = 0;
