@@ -247,7 +247,9 @@ TEST(Compare, EditsAreSeenAgainstThePinnedLens) {
     ASSERT_TRUE(shown.settle());
     MainWindow& window = shown.window;
     GhostPanel& ghosts = window.ghost_panel();
-    const Prescription bare = window.document().lens();
+    const Prescription bare = with_air_coating(window.document().lens(), Uncoated{});
+    window.document().edit_lens(bare, "take the coatings off");
+    ASSERT_TRUE(shown.settle());
     window.actions()["compare.pin"].trigger();
     ASSERT_TRUE(QTest::qWaitFor([&] { return ghosts.model().compares(); }, test::patience_ms));
     EXPECT_FALSE(ghosts.table().isColumnHidden(GhostTableModel::ratio));
@@ -399,7 +401,7 @@ TEST(LayoutLooks, MeetingsMarksFieldsAndMeasures) {
     EXPECT_EQ(view.fans().size(), 3U);
     EXPECT_EQ(view.marks().size(), 8U);  // and a focus for each ghost
     window.actions()["layout.marks"].setChecked(false);
-    // Bare glass: R + T = 1 at each meeting, and R at normal incidence for the straightest.
+    // Nothing absorbs: R + T = 1 at each meeting.
     for (const RayFan& fan : view.fans()) {
         ASSERT_FALSE(fan.meetings.empty());
         for (const RayMeeting& meeting : fan.meetings) {
