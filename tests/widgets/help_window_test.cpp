@@ -55,6 +55,7 @@ TEST(HelpPages, TheGuideHasASectionForEveryPanelThatThereIs) {
 TEST(HelpWindow, F1OpensThePageOfThePanelInUse) {
     OpenWindow shown(test::tessar());
     MainWindow& window = shown.window;
+    ASSERT_TRUE(shown.settle());  // until then an empty state stands for the table
     window.activateWindow();
     ASSERT_TRUE(QTest::qWaitForWindowActive(&window));
     window.ghost_panel().table().setFocus();
