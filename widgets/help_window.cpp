@@ -47,7 +47,9 @@ void space_out(QTextDocument& page) {
         QTextBlockFormat format;
         format.setTopMargin(is_heading ? 20 : is_in_table ? 2 : 0);
         format.setBottomMargin(is_in_table || is_listed ? 3 : 9);
-        format.setLineHeight(120, QTextBlockFormat::ProportionalHeight);
+        if (!block.text().contains(QChar::ObjectReplacementCharacter)) {  // no picture
+            format.setLineHeight(120, QTextBlockFormat::ProportionalHeight);
+        }
         edit.setPosition(block.position());
         edit.mergeBlockFormat(format);
     }

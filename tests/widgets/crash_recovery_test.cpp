@@ -42,7 +42,8 @@ TEST_F(CrashRecoverySlow, AKillCostsNoMoreThanTheLastEdits) {
                                        test::patience_ms));
         // F6 goes from panel to panel; once it is in the prescription, Ctrl+I inserts a surface.
         const auto is_edited = [&] { return program.title().contains('*'); };
-        for (int k = 0; k < 9 && !is_edited(); ++k) {
+        constexpr int most_tries = 60;  // a busy machine takes the first keys late
+        for (int k = 0; k < most_tries && !is_edited(); ++k) {
             program.press(key_f6);
             program.press(key_i, XCB_MOD_MASK_CONTROL);
             QTest::qWait(500);
@@ -61,7 +62,7 @@ TEST_F(CrashRecoverySlow, AKillCostsNoMoreThanTheLastEdits) {
         const auto left = Autosave::find_leftover(unsaved());
         ASSERT_TRUE(left) << "nothing was kept";
         EXPECT_GE(left->state.lens.surfaces.size(), rows + early);
-        EXPECT_LE(left->state.lens.surfaces.size(), rows + 9 + early + late);
+        EXPECT_LE(left->state.lens.surfaces.size(), rows + most_tries + early + late);
         EXPECT_EQ(left->file, test::tessar());
     }
     // The file itself is as it was, and the next start keeps the copy until it is asked.
