@@ -277,10 +277,10 @@ TEST(Compare, EditsAreSeenAgainstThePinnedLens) {
         }
     }
     EXPECT_EQ(fallen, 5);
-    // The divider is dragged; what lies left of it is A.
+    // The divider is dragged, away from the light's marker; what lies left of it is A.
     FlareView& view = *window.flare_panel().view();
-    const QPointF divider(view.split_share() * view.width(), 0.8 * view.height());
-    drag(view, divider, {0.25 * view.width(), 0.8 * view.height()});
+    const QPointF divider(view.split_share() * view.width(), 0.4 * view.height());
+    drag(view, divider, {0.25 * view.width(), 0.4 * view.height()});
     EXPECT_NEAR(view.split_share(), 0.25, 0.01);
     const LightDirection light = window.document().scene().light().direction;
     EXPECT_EQ(window.document().scene().light().direction, light);
