@@ -105,6 +105,11 @@ QDockWidget* MainWindow::add_dock(QWidget* panel, const char* name, const QStrin
         header->setToolTip(
             "Drag to move the panel, double-click to float it, right-click to close");
     }
+    // On a low screen a panel shows less; none may make the window taller than the screen.
+    constexpr int least_height_px = 110;
+    if (panel->minimumSizeHint().height() > least_height_px) {
+        panel->setMinimumHeight(least_height_px);
+    }
     addDockWidget(area, dock);
     return dock;
 }
@@ -173,10 +178,10 @@ void MainWindow::build_menus() {
                                      "edit.auto_size",  "edit.own_thickness", "-",
                                      "edit.scale",      "edit.reverse",       "-",
                                      "edit.mend_glass", "edit.absorption"});
-    actions_.add_menu(
-        bar, "&Ghosts",
-        {"ghosts.filter", "ghosts.as_table", "ghosts.as_matrix", "ghosts.as_surfaces", "-",
-         "ghosts.copy", "ghosts.clear", "-", "ghosts.all", "ghosts.above_3", "ghosts.above_2"});
+    actions_.add_menu(bar, "&Ghosts",
+                      {"ghosts.filter", "ghosts.as_table", "ghosts.as_matrix", "ghosts.as_surfaces",
+                       "-", "ghosts.copy", "ghosts.clear", "-", "ghosts.all", "ghosts.above_3",
+                       "ghosts.above_2", "-", "sweep.run", "check.show"});
     actions_.add_menu(
         bar, "&Compare",
         {"compare.pin", "compare.restore", "compare.unpin", "-", "compare.split", "compare.blink"});

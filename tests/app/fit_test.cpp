@@ -19,8 +19,9 @@ class CommandLineFit : public InTemporaryFolder {
     void refused(const std::string& photo, const std::vector<std::string>& more,
                  const std::vector<std::string>& words) const {
         std::vector<std::string> command = {
-            "fit",          tessar(), "--photo",  (folder / photo).string(),
-            "--wavelength", "620",    "--starts", "1"};
+            "fit",       tessar(), "--photo",      (folder / photo).string(),
+            "--coating", "qw:550", "--wavelength", "620",
+            "--starts",  "1"};
         command.insert(command.end(), more.begin(), more.end());
         const Outcome outcome = cli(command);
         EXPECT_EQ(outcome.status, 2);
