@@ -30,7 +30,7 @@ void MainWindow::arrange_editing() {
     tabifyDockWidget(coating_dock_, configuration_dock_);
     tabifyDockWidget(configuration_dock_, glass_dock_);
     coating_dock_->raise();
-    resizeDocks({prescription_dock_, coating_dock_}, {height() * 50 / 100, height() * 50 / 100},
+    resizeDocks({prescription_dock_, coating_dock_}, {height() * 60 / 100, height() * 40 / 100},
                 Qt::Vertical);
 }
 

@@ -272,19 +272,22 @@ void Understanding::set_full_screen(bool on) {
 }
 
 void Understanding::connect_panels() {
-    const auto bring = [this](QDockWidget* dock) {
+    // A list needs less of the window than flares above curves.
+    constexpr int percent_of_list = 22, percent_of_sweep = 34;
+    const auto bring = [this](QDockWidget* dock, int percent) {
         const bool was_hidden = dock->isHidden();
         dock->show();
         dock->raise();
         if (was_hidden && !dock->isFloating()) {
-            parts_.window.resizeDocks({dock}, {parts_.window.height() * 34 / 100}, Qt::Vertical);
+            parts_.window.resizeDocks({dock}, {parts_.window.height() * percent / 100},
+                                      Qt::Vertical);
         }
     };
     parts_.actions.on("sweep.run", [this, bring] {
-        bring(sweep_dock_);
+        bring(sweep_dock_, percent_of_sweep);
         sweep_->start();
     });
-    parts_.actions.on("check.show", [this, bring] { bring(check_dock_); });
+    parts_.actions.on("check.show", [this, bring] { bring(check_dock_, percent_of_list); });
     connect(check_, &CheckPanel::cell_chosen, this,
             [this](int row, LensCell cell) { go_to_cell(parts_.prescription, row, cell); });
     connect(&parts_.ghosts, &GhostPanel::surface_chosen, this,
