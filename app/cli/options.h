@@ -93,8 +93,8 @@ struct LoadedLens {
     Notes notes;
 };
 LoadedLens load_lens(const LensOptions& options);
-/// Throws Error with what has to be mended before the lens can be traced, such as a glass that nobody
-/// knows. load_lens does so unless `takes_unfinished`.
+/// Throws Error with what has to be mended before the lens can be traced, such as a glass that
+/// nobody knows. load_lens does so unless `takes_unfinished`.
 void refuse_unfinished(const LoadedLens& loaded);
 
 /// What `--config` names: one configuration, a comma list of them, or "all"; one empty text for the

@@ -69,7 +69,7 @@ ExtremeCase nearly_plane(double radius_mm) {
     constexpr double n = 1.5, z_mm = 100.0, h_mm = 5.0;
     return traced(
         radius_mm > 0.0 ? "radius of 1e9 mm against a plane" : "radius of -1e9 mm against a plane",
-        "∓(n − 1) h z / (n |R|) from where the plane sends it", "mm",
+        "∓(n − 1) h z / (n R) from where the plane sends it", "mm",
         -(n - 1.0) * h_mm * z_mm / (n * radius_mm), 8.0 * rounding * h_mm, [&](auto land) {
             return land(lens_of({surface(radius_mm, z_mm, n)}), GhostPath{}, axis, 0.0, h_mm).y_mm -
                    land(lens_of({surface(0.0, z_mm, n)}), GhostPath{}, axis, 0.0, h_mm).y_mm;

@@ -20,7 +20,8 @@ using Jet = ceres::Jet<double, parameters_at_once>;
 /// of an index at λ0 the error is its square.
 constexpr double relative_step = 1e-4;
 
-/// Wavelengths of an integral over a continuous light: films of a few layers are smooth on 300/16 nm.
+/// Wavelengths of an integral over a continuous light: films of a few layers are smooth on 300/16
+/// nm.
 constexpr int spectral_nodes = 17;
 
 double nominal_thickness_nm(const QuarterWave& film, const Medium& before, const Medium& after) {

@@ -132,7 +132,8 @@ TEST(FluxSensitivity, OfAReflectanceCountsTurnsAndCrossings) {
             }
     }
     // A surface's own R scales the ghost that turns there as its mean R does.
-    const auto slopes = flux_sensitivities(lens, Monochromatic{550.0}, light, GhostPath{{4, 2}}, parameters);
+    const auto slopes =
+        flux_sensitivities(lens, Monochromatic{550.0}, light, GhostPath{{4, 2}}, parameters);
     for (std::size_t k = 0; k < parameters.size(); ++k)
         if (parameters[k].surface == 6 && parameters[k].kind == Kind::reflectance) {
             EXPECT_NEAR(slopes[k], -1.0, 0.1);  // one crossing: −1/T
@@ -144,7 +145,8 @@ TEST(FluxSensitivity, AQuarterWaveAtItsCentreHasItsLeastReflectance) {
     Prescription lens = lens_of({row(0.0, 2.0, 1.0, 5.0), row(0.0, 4.0, 1.5), row(0.0, 20.0, 1.0)});
     lens.surfaces[2].coating = QuarterWave{.center_nm = 550.0, .layer = medium(1.38)};
     const auto parameters = coating_parameters(lens, 550.0);
-    const auto slopes = flux_sensitivities(lens, Monochromatic{550.0}, {}, GhostPath{{2, 1}}, parameters);
+    const auto slopes =
+        flux_sensitivities(lens, Monochromatic{550.0}, {}, GhostPath{{2, 1}}, parameters);
     for (std::size_t k = 0; k < parameters.size(); ++k)
         if (parameters[k].kind == Kind::center || parameters[k].kind == Kind::layer_thickness) {
             EXPECT_NEAR(slopes[k], 0.0, 1e-6) << name(parameters[k]);
