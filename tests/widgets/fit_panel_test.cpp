@@ -19,6 +19,7 @@
 #include "core/fit/synthetic_photo.h"
 #include "core/io/fit_setup_json.h"
 #include "core/io/photo_file.h"
+#include "core/io/varied_cells.h"
 #include "core/optics/optical_system.h"
 #include "core/units.h"
 #include "tests/widgets/window_kit.h"
@@ -115,6 +116,22 @@ TEST_F(FitPanelTest, SaysWhatIsMissing) {
     // One row for each coated surface, as the command line's center@all has it.
     EXPECT_EQ(static_cast<std::size_t>(panel_.model().rowCount()),
               parse_vary("center@all", document_.lens()).size());
+}
+
+TEST_F(FitPanelTest, VariesWhatIsMarkedInThePrescription) {
+    ASSERT_FALSE(document_.open(test::tessar()));
+    ASSERT_TRUE(settle());
+    click("vary_marked");
+    EXPECT_NE(panel_.reason(), "") << "nothing is marked yet";
+    Prescription lens = document_.lens();
+    set_varied(lens.surfaces[2], "radius", true);
+    document_.edit_lens(lens, "mark a radius", "");
+    ASSERT_TRUE(settle());
+    click("vary_marked");
+    ASSERT_TRUE(settle());
+    EXPECT_EQ(panel_.reason(), "");
+    EXPECT_EQ(panel_.model().rowCount(), 1);
+    EXPECT_NE(document_.fit().find("radius@3"), std::string::npos) << document_.fit();
 }
 
 TEST_F(FitPanelTest, LightIsFoundClickedAndTyped) {

@@ -22,6 +22,7 @@
 #include "core/io/fit_page.h"
 #include "core/io/fit_setup_json.h"
 #include "core/io/lens_file.h"
+#include "core/io/varied_cells.h"
 #include "widgets/actions.h"
 #include "widgets/document.h"
 #include "widgets/fit_apply.h"
@@ -272,6 +273,8 @@ QWidget* FitPanel::make_parameters() {
     auto* coatings = quiet("all_coatings", tr("All coatings"),
                            tr("Vary the centre wavelength, or the constant reflectance, of every "
                               "coated surface"));
+    auto* marked = quiet("vary_marked", tr("Marked"),
+                         tr("Vary what is marked V in the prescription (Ctrl+M there)"));
     spec_ = new QLineEdit;
     spec_->setObjectName("fit_spec");
     spec_->setPlaceholderText(QStringLiteral("center@3  radius@4~0.2%  gap@2=1..3"));
@@ -282,6 +285,7 @@ QWidget* FitPanel::make_parameters() {
     auto* add = quiet("vary_add", tr("Add"), tr("Vary this too"));
     auto* remove = quiet("vary_remove", tr("Remove"), tr("Take the chosen rows out"));
     add_row->addWidget(coatings);
+    add_row->addWidget(marked);
     add_row->addWidget(spec_, 1);
     add_row->addWidget(add);
     add_row->addWidget(remove);
@@ -328,6 +332,15 @@ QWidget* FitPanel::make_parameters() {
             return;
         }
         add_spec(QString::fromStdString(wanted), tr("vary all coatings"));
+    });
+    connect(marked, &QToolButton::clicked, this, [this] {
+        const std::string wanted = vary_text(document_.configured_lens());
+        if (wanted.empty()) {
+            show_reason(
+                tr("nothing is marked; choose a cell of the prescription and press Ctrl+M"));
+            return;
+        }
+        add_spec(QString::fromStdString(wanted), tr("vary what is marked"));
     });
     const auto add_typed = [this] {
         if (!spec_->text().trimmed().isEmpty()) {

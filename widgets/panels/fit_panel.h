@@ -49,7 +49,7 @@ class FitPanel : public QWidget {
     QTableView& table() { return *table_; }
     FitPictureView& picture() { return *picture_; }
     FitResults& results() { return *results_; }
-    /// "add", "remove", "all_coatings", "vary_add", "vary_remove", "find", "start", "pause",
+    /// "add", "remove", "all_coatings", "vary_marked", "vary_add", "vary_remove", "find", "start", "pause",
     /// "cancel", "apply", "report", and "mode_photograph" … "mode_blink".
     QAbstractButton& button(const QString& name) const;
     QLineEdit& light() { return *light_; }
