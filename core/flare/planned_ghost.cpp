@@ -17,7 +17,7 @@ constexpr int most_bands = 24;
 /// How a ghost's allowance is shared among what its picture gets wrong.
 constexpr double level_share = 0.45, grid_share = 0.2, band_share = 0.2, weight_share = 0.15;
 /// Singular cells are split where what they get wrong is more than this share of the allowance.
-constexpr double singular_share = 0.0;
+constexpr double singular_share = 0.1;
 /// For OpenGL, in all ghosts that have this many times the light of their allowance.
 constexpr double split_above = 5.0;
 constexpr int split_cells = 4;  ///< across a singular cell
