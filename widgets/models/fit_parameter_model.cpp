@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "widgets/models/column_header.h"
 #include "widgets/number_text.h"
 #include "widgets/palette.h"
 
@@ -136,17 +137,8 @@ QVariant FitParameterModel::headerData(int section, Qt::Orientation orientation,
         return {};
     }
     const auto at = static_cast<std::size_t>(section);
-    if (role == Qt::DisplayRole) {
-        return QString::fromUtf8(titles[at]);
-    }
-    if (role == Qt::ToolTipRole) {
-        return QString::fromUtf8(tips[at]);
-    }
-    if (role == Qt::TextAlignmentRole) {
-        const bool is_text = section <= unit_of || section == known;
-        return QVariant((is_text ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
-    }
-    return {};
+    const bool is_text = section <= unit_of || section == known;
+    return column_header(titles[at], tips[at], is_text ? Qt::AlignLeft : Qt::AlignRight, role);
 }
 
 Qt::ItemFlags FitParameterModel::flags(const QModelIndex& index) const {

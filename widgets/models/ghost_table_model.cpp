@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "widgets/ghost_colors.h"
+#include "widgets/models/column_header.h"
 #include "widgets/number_text.h"
 #include "widgets/palette.h"
 
@@ -215,17 +216,8 @@ QVariant GhostTableModel::headerData(int section, Qt::Orientation orientation, i
         return {};
     }
     const ColumnText& column = columns[static_cast<std::size_t>(section)];
-    switch (role) {
-        case Qt::DisplayRole:
-            return QString::fromUtf8(column.header);
-        case Qt::ToolTipRole:
-            return QString::fromUtf8(column.tip);
-        case Qt::TextAlignmentRole:
-            return QVariant::fromValue(Qt::AlignVCenter |
-                                       (section == ghost ? Qt::AlignLeft : Qt::AlignRight));
-        default:
-            return {};
-    }
+    return column_header(column.header, column.tip,
+                         section == ghost ? Qt::AlignLeft : Qt::AlignRight, role);
 }
 
 void GhostTableModel::set_table(std::shared_ptr<const GhostTable> table) {

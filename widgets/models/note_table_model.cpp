@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/io/import_report.h"
+#include "widgets/models/column_header.h"
 #include "widgets/palette.h"
 
 namespace ghostlight {
@@ -138,16 +139,7 @@ QVariant NoteTableModel::headerData(int section, Qt::Orientation orientation, in
         return {};
     }
     const ColumnText& column = columns[static_cast<std::size_t>(section)];
-    switch (role) {
-        case Qt::DisplayRole:
-            return QString::fromUtf8(column.header);
-        case Qt::ToolTipRole:
-            return QString::fromUtf8(column.tip);
-        case Qt::TextAlignmentRole:
-            return QVariant::fromValue(Qt::AlignVCenter | Qt::AlignLeft);
-        default:
-            return {};
-    }
+    return column_header(column.header, column.tip, Qt::AlignLeft, role);
 }
 
 void NoteFilter::set_only_what_matters(bool only) {

@@ -10,6 +10,7 @@
 #include "core/optics/mend.h"
 #include "core/optics/reverse.h"
 #include "widgets/models/coating_color.h"
+#include "widgets/models/column_header.h"
 #include "widgets/number_text.h"
 #include "widgets/palette.h"
 #include "widgets/prescription_edits.h"
@@ -210,17 +211,8 @@ QVariant PrescriptionModel::headerData(int section, Qt::Orientation orientation,
     const ColumnText& column = section == radius && curvatures_
                                    ? curvature_column
                                    : columns[static_cast<std::size_t>(section)];
-    switch (role) {
-        case Qt::DisplayRole:
-            return QString::fromUtf8(column.header);
-        case Qt::ToolTipRole:
-            return QString::fromUtf8(column.tip);
-        case Qt::TextAlignmentRole:
-            return QVariant::fromValue(Qt::AlignVCenter |
-                                       (is_number(section) ? Qt::AlignRight : Qt::AlignLeft));
-        default:
-            return {};
-    }
+    return column_header(column.header, column.tip,
+                         is_number(section) ? Qt::AlignRight : Qt::AlignLeft, role);
 }
 
 Qt::ItemFlags PrescriptionModel::flags(const QModelIndex& index) const {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "widgets/models/column_header.h"
 #include "widgets/number_text.h"
 #include "widgets/palette.h"
 
@@ -75,15 +76,8 @@ QVariant QuantityModel::headerData(int section, Qt::Orientation orientation, int
     if (orientation != Qt::Horizontal || section < 0 || section >= column_count) {
         return {};
     }
-    switch (role) {
-        case Qt::DisplayRole:
-            return QString::fromUtf8(headers[static_cast<std::size_t>(section)]);
-        case Qt::TextAlignmentRole:
-            return QVariant::fromValue(Qt::AlignVCenter |
-                                       (section == value ? Qt::AlignRight : Qt::AlignLeft));
-        default:
-            return {};
-    }
+    return column_header(headers[static_cast<std::size_t>(section)], nullptr,
+                         section == value ? Qt::AlignRight : Qt::AlignLeft, role);
 }
 
 void QuantityModel::set_quantities(std::vector<LensQuantity> quantities) {

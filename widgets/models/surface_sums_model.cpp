@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "widgets/models/column_header.h"
 #include "widgets/number_text.h"
 
 namespace ghostlight {
@@ -89,18 +90,9 @@ QVariant SurfaceSumsModel::headerData(int section, Qt::Orientation orientation, 
         return {};
     }
     const ColumnText& column = columns[static_cast<std::size_t>(section)];
-    switch (role) {
-        case Qt::DisplayRole:
-            return QString::fromUtf8(column.header);
-        case Qt::ToolTipRole:
-            return QString::fromUtf8(column.tip);
-        case Qt::TextAlignmentRole:
-            return QVariant::fromValue(
-                Qt::AlignVCenter |
-                (section == surface || section == media ? Qt::AlignLeft : Qt::AlignRight));
-        default:
-            return {};
-    }
+    return column_header(column.header, column.tip,
+                         section == surface || section == media ? Qt::AlignLeft : Qt::AlignRight,
+                         role);
 }
 
 void SurfaceSumsModel::set_table(std::shared_ptr<const GhostTable> table) {
