@@ -13,6 +13,7 @@
 #include "core/flare/flare_image.h"
 #include "core/flare/tone_map.h"
 #include "core/io/aside_file.h"
+#include "core/io/refuse_file.h"
 
 namespace ghostlight {
 namespace {
@@ -33,19 +34,11 @@ std::string extension_of(const std::filesystem::path& file) {
     return extension;
 }
 
-[[noreturn]] void fail(const std::filesystem::path& file, std::string problem, std::string found,
-                       std::string expected) {
-    throw Error({.problem = std::move(problem),
-                 .file = file.string(),
-                 .where = {},
-                 .found = std::move(found),
-                 .expected = std::move(expected)});
-}
-
 std::unique_ptr<OIIO::ImageInput> opened(const std::filesystem::path& file, bool raw) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored))
-        fail(file, "there is no such photograph", {}, "the path of an EXR, TIFF, PNG, JPEG or RAW");
+        refuse_file(file, "there is no such photograph", {},
+                    "the path of an EXR, TIFF, PNG, JPEG or RAW");
     OIIO::ImageSpec config;
     if (raw) {
         config.attribute("raw:ColorSpace", "raw");
@@ -59,10 +52,11 @@ std::unique_ptr<OIIO::ImageInput> opened(const std::filesystem::path& file, bool
     if (!input) {
         std::string why = OIIO::geterror();
         std::ranges::replace(why, '\n', ' ');
-        fail(file, raw ? "the RAW file cannot be read" : "the photograph cannot be read", why,
-             raw ? "a RAW of a camera that the RAW reader knows, or the same picture developed to "
-                   "linear TIFF or EXR"
-                 : "an EXR, TIFF, PNG, JPEG or RAW file");
+        refuse_file(
+            file, raw ? "the RAW file cannot be read" : "the photograph cannot be read", why,
+            raw ? "a RAW of a camera that the RAW reader knows, or the same picture developed to "
+                  "linear TIFF or EXR"
+                : "an EXR, TIFF, PNG, JPEG or RAW file");
     }
     return input;
 }
@@ -106,7 +100,8 @@ std::vector<float> read_rgb(OIIO::ImageInput& input, const OIIO::ImageSpec& spec
     const int last = std::max({r, g, b}) + 1;
     std::vector<float> all(pixels * static_cast<std::size_t>(last));
     if (!input.read_image(0, 0, 0, last, OIIO::TypeDesc::FLOAT, all.data()))
-        fail(file, "the photograph cannot be read to its end", input.geterror(), "a complete file");
+        refuse_file(file, "the photograph cannot be read to its end", input.geterror(),
+                    "a complete file");
     if (r == 0 && g == 1 && b == 2 && last == 3) return all;
     std::vector<float> rgb(3 * pixels);
     for (std::size_t i = 0; i < pixels; ++i) {
@@ -126,8 +121,8 @@ PhotoFormat photo_format(const std::filesystem::path& file) {
     if (extension == ".tif" || extension == ".tiff") return {.srgb = false, .bits = 16};
     if (extension == ".png" || extension == ".jpg" || extension == ".jpeg")
         return {.srgb = true, .bits = 8};
-    fail(file, "a photograph cannot be written under this name", extension,
-         ".exr, .tif, .png or .jpg");
+    refuse_file(file, "a photograph cannot be written under this name", extension,
+                ".exr, .tif, .png or .jpg");
 }
 
 Photo read_photo(const std::filesystem::path& file) {
@@ -140,9 +135,9 @@ Photo read_photo(const std::filesystem::path& file) {
     photo.width_px = spec.width;
     photo.height_px = spec.height;
     if (spec.width < 16 || spec.height < 16 || photo.pixels() > most_pixels)
-        fail(file, "the photograph has an unusual size",
-             fmt::format("{} x {} pixels", spec.width, spec.height),
-             "16 to some ten thousand pixels each way");
+        refuse_file(file, "the photograph has an unusual size",
+                    fmt::format("{} x {} pixels", spec.width, spec.height),
+                    "16 to some ten thousand pixels each way");
     photo.rgb = read_rgb(*input, spec, file);
 
     const bool integer = spec.format.is_floating_point() == false;
@@ -224,7 +219,7 @@ void mask_by_file(Photo& photo, const std::filesystem::path& file) {
     const double shape = static_cast<double>(spec.width) / spec.height;
     const double wanted = static_cast<double>(photo.width_px) / photo.height_px;
     if (std::abs(shape / wanted - 1.0) > 0.02)
-        fail(
+        refuse_file(
             file, "the mask has not the photograph's shape",
             fmt::format("{} x {} pixels", spec.width, spec.height),
             fmt::format("{} x {}, or smaller in that proportion", photo.width_px, photo.height_px));
@@ -273,8 +268,8 @@ void write_photo(const Photo& photo, int bits, const std::filesystem::path& file
                                                                      : "tiff");
     if (!out || !out->open(aside.path().string(), spec) ||
         !out->write_image(OIIO::TypeDesc::FLOAT, values.data()) || !out->close())
-        fail(file, "the photograph cannot be written", out ? out->geterror() : OIIO::geterror(),
-             {});
+        refuse_file(file, "the photograph cannot be written",
+                    out ? out->geterror() : OIIO::geterror(), {});
     aside.commit();
 }
 
