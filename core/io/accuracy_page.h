@@ -37,6 +37,8 @@ LogChart promise_chart(const AccuracyRun& run);
 /// How often the plan kept what it was asked, over the cases where that can be told.
 struct Promises {
     std::size_t kept = 0, broken = 0, unresolved = 0;
+    /// Cases in which the plan's own account, with the reference's error, covers the true error.
+    std::size_t accounted = 0, counted = 0;
 };
 Promises promises_of(const AccuracyRun& run);
 
