@@ -25,8 +25,8 @@ struct AccuracyOptions {
     std::vector<std::string> lenses;
     std::string config, field, field_share, closed = "0", azimuth = "90";
     SpectrumOptions spectrum;
-    std::string width, reference, budget, folder, chart_folder = ".";
-    bool quick = false;
+    std::string width, reference, budget, folder, chart_folder = ".", name = "accuracy";
+    bool quick = false, brief = false;
 };
 
 /// Where nothing is said: part of the way to the sensor's corner.
@@ -163,13 +163,17 @@ void run(const AccuracyOptions& options) {
     }
 
     const Table rows = accuracy_rows(all);
-    write_file_safely(folder / "accuracy.csv", table_csv(rows));
+    const std::string& called = options.name;
+    write_file_safely(folder / (called + ".csv"), table_csv(rows));
     write_file_safely(folder / "ghosts.csv", table_csv(ghost_accuracy_rows(all)));
     for (const AccuracyCase& one : all.cases)
         write_file_safely(folder / chart_file(one), log_chart_svg(error_time_chart(one)));
-    write_file_safely(folder / "accuracy_promised.svg", log_chart_svg(promise_chart(all)));
-    write_file_safely(folder / "accuracy.html", accuracy_html(all));
-    write_file_safely(folder / "accuracy.md", accuracy_markdown(all, options.chart_folder));
+    write_file_safely(folder / (called + "_promised.svg"), log_chart_svg(promise_chart(all)));
+    write_file_safely(folder / (called + ".html"), accuracy_html(all));
+    write_file_safely(folder / (called + ".md"),
+                      accuracy_markdown(all, {.chart_folder = options.chart_folder,
+                                              .name = called,
+                                              .case_charts = !options.brief}));
 
     Table shown = select_columns(rows, {"lens", "field_deg", "method", "setting", "median_ms",
                                         "relative_l1", "energy", "resolved", "on_front"});
@@ -177,9 +181,9 @@ void run(const AccuracyOptions& options) {
     write_standard_output(
         table_text(shown) +
         fmt::format("\nThe plan kept its tolerance in {} of {} cases; {} are not resolved.\n"
-                    "{}: accuracy.csv, ghosts.csv, accuracy.html, accuracy.md and charts\n",
+                    "{}: {}.csv, ghosts.csv, {}.html, {}.md and charts\n",
                     promises.kept, promises.kept + promises.broken, promises.unresolved,
-                    folder.string()));
+                    folder.string(), called, called, called));
 }
 
 }  // namespace
@@ -210,6 +214,10 @@ void add_accuracy(CLI::App& program) {
     add_text(*command, "--budget", options->budget, "SECONDS",
              "for the timed frames of a lens and field, the reference not among them;\nsettings "
              "that would go beyond it are left out; default 60");
+    add_text(*command, "--name", options->name, "NAME",
+             "of the files: NAME.csv, NAME.html, NAME.md, NAME_promised.svg")
+        ->capture_default_str();
+    command->add_flag("--brief", options->brief, "accuracy.md without a chart for each case");
     add_text(*command, "--chart-folder", options->chart_folder, "DIR",
              "where accuracy.md expects the charts")
         ->capture_default_str();
