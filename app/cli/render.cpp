@@ -93,6 +93,12 @@ FlareOrigin origin_of(const LoadedLens& loaded, const FlareRequest& request,
 struct SceneLayers {
     std::vector<LayerKind> kinds;
     std::vector<FlareImage> images;
+
+    const FlareImage* find(LayerKind kind) const {
+        const auto found = std::ranges::find(kinds, kind);
+        return found == kinds.end() ? nullptr
+                                    : &images[static_cast<std::size_t>(found - kinds.begin())];
+    }
 };
 
 SceneLayers scene_layers(const Prescription& lens, const Scene& scene,
@@ -113,7 +119,7 @@ SceneLayers scene_layers(const Prescription& lens, const Scene& scene,
                 image = starburst_layer(view, request, render_starburst);
                 break;
             case LayerKind::veil:
-                image = veil_layer(view, request);
+                image = veil_layer(view, request, {}, layers.find(LayerKind::ghosts));
                 break;
             case LayerKind::backdrop:
                 if (scene.backdrop.file.empty())

@@ -34,7 +34,7 @@ OfFate sum_of(const FlarePlan& plan, const PlanProof* proof, GhostFate fate) {
 
 PlanReport plan_report(const FlareScene& scene, const FlarePlan& plan, const PlanProof* proof) {
     PlanReport report;
-    report.flux_mm2 = plan.flux_mm2;
+    report.flux_mm2 = plan.flux_mm2 + plan.folded_mm2;
     auto add = [&](std::string what, std::string why, std::size_t ghosts,
                    std::optional<double> bound_mm2, bool proven) {
         if (ghosts == 0) return;
@@ -48,12 +48,9 @@ PlanReport plan_report(const FlareScene& scene, const FlarePlan& plan, const Pla
     add("ghosts left out", "the bound of their light is below their share of the error",
         left_out.ghosts, left_out.bound_mm2, true);
     const OfFate folded = sum_of(plan, proof, GhostFate::folded);
-    double veil_mm2 = 0.0;
-    for (const PlannedGhost& ghost : plan.ghosts)
-        if (ghost.fate == GhostFate::folded) veil_mm2 += ghost.flux_mm2;
     // Light in the wrong place is missing from the right one too.
     add("ghosts folded into the veil", "too faint and broad to be seen by themselves",
-        folded.ghosts, 2.0 * veil_mm2, false);
+        folded.ghosts, 2.0 * plan.folded_mm2, false);
     const OfFate beside = sum_of(plan, proof, GhostFate::off_sensor);
     add("ghosts beside the sensor", "none of the light that was found lands on it", beside.ghosts,
         missed(beside), true);

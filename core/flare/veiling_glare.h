@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/flare/ghost_mesh.h"
-#include "core/flare/ghost_spot.h"
+#include "core/flare/flare_plan.h"
 
 namespace ghostlight {
 
