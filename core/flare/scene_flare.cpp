@@ -8,7 +8,7 @@
 #include "core/flare/fold_ghosts.h"
 #include "core/flare/glare_spread.h"
 #include "core/flare/probe_all.h"
-#include "core/flare/veiling_glare.h"
+#include "core/flare/veil_picture.h"
 #include "core/optics/paraxial.h"
 #include "core/units.h"
 
@@ -230,59 +230,72 @@ std::optional<FlareImage> starburst_layer(const SceneView& view, const FlareRequ
     return sum;
 }
 
-std::optional<FlareImage> veil_layer(const SceneView& view, const FlareRequest& request,
-                                     std::stop_token stop, const FlareImage* ghosts) {
-    FlareImage image = black_image(view.lens.sensor, request.width_px);
+namespace {
+
+/// What a scene's veil has of its ghosts, lights together, where no ghosts' layer tells.
+std::optional<std::vector<GhostSpot>> folded_anew(const SceneView& view,
+                                                  const FlareRequest& request,
+                                                  const std::stop_token& stop) {
     const Scene& scene = view.scene;
-    const Sensor& sensor = view.lens.sensor;
     std::vector<GhostSpot> all;
     for (const Light& light : scene.lights) {
         if (!light.on) continue;
         const FlareScene& compiled = view.spectra.of(view.lens, light.spectrum);
-        const FlareRequest one = of_light(request, light);
+        FlareRequest one = of_light(request, light);
+        one.folded_share = folded_share(scene);
+        const auto plan = folded_ahead(compiled, one, stop);
+        if (!plan) return std::nullopt;
         const std::array<double, 4> gain = gain_of(scene, light);
-        const auto brightened = [&](GhostSpot ghost) {
+        for (GhostSpot ghost : looks_of(scene.artistic, *plan)) {
             for (std::size_t c = 0; c < 4; ++c) ghost.flux_mm2[c] *= gain[c];
-            return ghost;
-        };
-        if (folded_share(scene) > 0.0 && ghosts == nullptr) {
-            FlareRequest ahead = one;
-            ahead.folded_share = folded_share(scene);
-            const auto plan = folded_ahead(compiled, ahead, stop);
-            if (!plan) return std::nullopt;
-            for (const GhostSpot& ghost : looks_of(scene.artistic, *plan))
-                all.push_back(brightened(ghost));
-        }
-        if (scene.veil.spread.share > 0.0) {
-            const auto direct = ghost_spots(compiled, {GhostPath{}}, one, stop);
-            if (!direct) return std::nullopt;
-            const GhostSpot spot = brightened(direct->front());
-            const double efl_mm = first_order(compiled.system()).efl_mm;
-            add_glare_spread(scene.veil.spread, spot.flux_mm2, spot.x_mm, spot.y_mm, efl_mm,
-                             request.threads, image);
-            image.flux_mm2 += scene.veil.spread.share * spot.flux();
+            all.push_back(ghost);
         }
     }
-    if (ghosts != nullptr) all = ghosts->folded;
-    std::erase_if(all, [&](const GhostSpot& ghost) {
+    return all;
+}
+
+void draw_folded(const Scene& scene, const Sensor& sensor, std::vector<GhostSpot> ghosts,
+                 const FlareRequest& request, FlareImage& image) {
+    std::erase_if(ghosts, [&](const GhostSpot& ghost) {
         return !reaches_sensor(ghost, sensor.width_mm, sensor.height_mm);
     });
-    if (!all.empty()) {
-        const VeilSize size = veil_size(all, sensor.width_mm, sensor.height_mm);
-        VeilSeries series(size.period_mm, size.orders);
-        double narrowest_mm = size.period_mm;
-        for (const GhostSpot& ghost : all) {
-            series.add(ghost, scene.veil.kernel);
-            image.flux_mm2 += ghost.flux();
-            narrowest_mm = std::min(narrowest_mm, ghost.sigmas_mm()[0]);
-        }
-        const PixelFrame frame = pixel_frame(sensor.width_mm, sensor.height_mm, request.width_px);
-        const auto values = veil_picture(series, narrowest_mm, frame, request.threads);
-        for (std::size_t i = 0; i < image.irradiance.size(); ++i) {
-            for (std::size_t c = 0; c < 3; ++c) image.rgb[3 * i + c] += values[4 * i + c];
-            // The series of an ellipse rings about zero where there is no light.
-            image.irradiance[i] += std::max(0.0F, values[4 * i + 3]);
-        }
+    if (ghosts.empty()) return;
+    const VeilSize size = veil_size(ghosts, sensor.width_mm, sensor.height_mm);
+    VeilSeries series(size.period_mm, size.orders);
+    double narrowest_mm = size.period_mm;
+    for (const GhostSpot& ghost : ghosts) {
+        series.add(ghost, scene.veil.kernel);
+        image.flux_mm2 += ghost.flux();
+        narrowest_mm = std::min(narrowest_mm, ghost.sigmas_mm()[0]);
+    }
+    draw_veil(series, narrowest_mm,
+              pixel_frame(sensor.width_mm, sensor.height_mm, request.width_px), request.threads,
+              image);
+}
+
+}  // namespace
+
+std::optional<FlareImage> veil_layer(const SceneView& view, const FlareRequest& request,
+                                     std::stop_token stop, const FlareImage* ghosts) {
+    FlareImage image = black_image(view.lens.sensor, request.width_px);
+    const Scene& scene = view.scene;
+    if (folded_share(scene) > 0.0) {
+        auto folded =
+            ghosts != nullptr ? std::optional(ghosts->folded) : folded_anew(view, request, stop);
+        if (!folded) return std::nullopt;
+        draw_folded(scene, view.lens.sensor, std::move(*folded), request, image);
+    }
+    for (const Light& light : scene.lights) {
+        if (!light.on || !(scene.veil.spread.share > 0.0)) continue;
+        const FlareScene& compiled = view.spectra.of(view.lens, light.spectrum);
+        const auto direct = ghost_spots(compiled, {GhostPath{}}, of_light(request, light), stop);
+        if (!direct) return std::nullopt;
+        GhostSpot spot = direct->front();
+        const std::array<double, 4> gain = gain_of(scene, light);
+        for (std::size_t c = 0; c < 4; ++c) spot.flux_mm2[c] *= gain[c];
+        add_glare_spread(scene.veil.spread, spot.flux_mm2, spot.x_mm, spot.y_mm,
+                         first_order(compiled.system()).efl_mm, request.threads, image);
+        image.flux_mm2 += scene.veil.spread.share * spot.flux();
     }
     measure(image);
     return image;
