@@ -138,6 +138,8 @@ TEST_F(SceneFlare, FoldedGhostsKeepTheirLight) {
     // What kernels of the same moments bring to the sensor, and a probe's few per cent.
     EXPECT_NEAR((drawn.flux_on_sensor_mm2 + veil.flux_on_sensor_mm2) / all.flux_on_sensor_mm2, 1.0,
                 0.05);
+    // What is folded is looked at once and traced no further.
+    EXPECT_LT(drawn.rays, all.rays);
     // Without the layer nothing is folded away.
     scene.layers.of(LayerKind::veil).on = false;
     EXPECT_EQ(ghosts().irradiance, all.irradiance);
