@@ -37,7 +37,7 @@ class Sums {
 
     void add_cell(const std::array<std::size_t, 4>& corners) {
         if (std::ranges::any_of(corners, [&](std::size_t k) { return nodes_.margin[k] < 0.0F; }))
-            return;
+            return add_valid(corners);
         bool cut = false;
         for (const auto& clearance : nodes_.clearances) {
             const auto [least, most] = std::minmax({clearance[corners[0]], clearance[corners[1]],
@@ -82,6 +82,16 @@ class Sums {
         float sum = 0.0F;
         for (std::size_t n = 0; n < 4; ++n) sum += shares[n] * values[corners[n] * stride + c];
         return sum;
+    }
+
+    /// Beside failing rays nothing can be interpolated: those that pass stand for a quarter each.
+    void add_valid(const std::array<std::size_t, 4>& corners) {
+        for (const std::size_t k : corners) {
+            const bool passes =
+                nodes_.margin[k] >= 0.0F &&
+                std::ranges::all_of(nodes_.clearances, [&](const auto& c) { return c[k] >= 0.0F; });
+            if (passes) add({k, k, k, k}, {0.5F, 0.5F, 0.25F});
+        }
     }
 
     void add_inside(const std::array<std::size_t, 4>& corners, const Part& part) {

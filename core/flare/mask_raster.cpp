@@ -17,7 +17,7 @@ constexpr double pi = std::numbers::pi;
 constexpr double most_specks = 2e5;
 /// Ridges of a fingertip are about half a millimetre apart, a print is some 15 by 20 mm.
 constexpr double ridge_mm = 0.45, print_width_mm = 15.0, print_height_mm = 20.0;
-constexpr int share_across = 512;
+constexpr int share_across = 1024;
 
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 

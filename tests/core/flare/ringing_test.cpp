@@ -7,6 +7,7 @@
 #include "core/flare/extended_flare.h"
 #include "core/flare/fresnel.h"
 #include "core/flare/planned_flare.h"
+#include "core/units.h"
 #include "tests/support/optics_kit.h"
 
 namespace ghostlight {
