@@ -10,6 +10,8 @@
 #include "app/cli/spectrum_option.h"
 #include "core/fit/fit_setup.h"
 #include "core/io/fit_page.h"
+#include "core/io/fit_photos.h"
+#include "core/io/photo_file.h"
 
 namespace ghostlight::cli {
 namespace {
@@ -27,13 +29,6 @@ struct FitOptions {
 
 double positive(std::string_view option, std::string_view text, std::string_view expected) {
     return number_value(option, text, expected, [](double value) { return value > 0.0; });
-}
-
-std::string command_line(const FitOptions& options) {
-    return fmt::format("fit {} {} --vary {}{}{} --seed {}", options.lens.lens,
-                       command_text(options.photos), options.vary,
-                       options.left_out.empty() ? "" : " --leave-out " + options.left_out,
-                       options.only.empty() ? "" : " --use-ghosts " + options.only, options.seed);
 }
 
 void run(const FitOptions& options) {
@@ -64,12 +59,20 @@ void run(const FitOptions& options) {
     request.left_out = read_option("--use-ghosts", [&] {
         return ghosts_left_out(options.left_out, options.only, loaded.lens);
     });
-    const std::vector<FitPhoto> photos = photos_of(options.photos, loaded.lens, notes);
+    FitSetup setup = photo_setup_of(options.photos);
+    const std::vector<FitPhoto> photos = read_fit_photos(setup, loaded.lens, notes, read_photo);
 
     ProgressLine progress("fitting");
     const FitReport report = *fit_flare(loaded.lens, photos, request, {},
                                         [&](double share, double) { progress(share); });
-    const std::string command = command_line(options);
+    setup.vary = options.vary;
+    setup.spectrum = name(request.spectrum);
+    setup.left_out = options.left_out;
+    setup.only = options.only;
+    setup.loss = request.loss;
+    setup.loss_scale = request.loss_scale;
+    setup.seed = request.seed;
+    const std::string command = fit_command(setup, options.lens.lens);
     if (!options.out.empty()) {
         Prescription fitted = report.lens.lens;
         fitted.notes += fmt::format("{}Fitted to photographs of its flare: {}",

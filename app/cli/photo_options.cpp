@@ -2,12 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
-#include <utility>
-
-#include "core/io/fit_photos.h"
-#include "core/io/photo_file.h"
 
 namespace ghostlight::cli {
 namespace {
@@ -64,8 +59,7 @@ void add_photos(CLI::App& command, PhotoOptions& options) {
              "values from here on are clipped; default: the file's largest");
 }
 
-std::vector<FitPhoto> photos_of(const PhotoOptions& options, const Prescription& lens,
-                                Notes& notes) {
+FitSetup photo_setup_of(const PhotoOptions& options) {
     FitSetup setup;
     setup.merge = options.merge;
     for (const auto file : split(options.files, ','))
@@ -95,26 +89,7 @@ std::vector<FitPhoto> photos_of(const PhotoOptions& options, const Prescription&
     for_each_photo("--saturation", options.saturations, ';', photos, [](auto& photo, auto text) {
         photo.saturation = positive("--saturation", text, "a value above 0");
     });
-    return read_fit_photos(setup, lens, notes, read_photo);
-}
-
-std::string command_text(const PhotoOptions& options) {
-    std::string text = fmt::format("--photo {}{}", options.files, options.merge ? " --merge" : "");
-    const PhotoOptions usual;
-    constexpr std::array<std::pair<const char*, std::string PhotoOptions::*>, 9> rest = {
-        {{"--light", &PhotoOptions::lights},
-         {"--photo-mask", &PhotoOptions::masks},
-         {"--mask-region", &PhotoOptions::regions},
-         {"--crop", &PhotoOptions::crops},
-         {"--photo-width", &PhotoOptions::widths_mm},
-         {"--principal", &PhotoOptions::principals},
-         {"--rotation", &PhotoOptions::rotations_deg},
-         {"--photo-noise", &PhotoOptions::noises},
-         {"--saturation", &PhotoOptions::saturations}}};
-    for (const auto& [option, field] : rest)
-        if (options.*field != usual.*field)
-            text += fmt::format(" {} \"{}\"", option, options.*field);
-    return text;
+    return setup;
 }
 
 }  // namespace ghostlight::cli

@@ -1,10 +1,9 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "app/cli/options.h"
-#include "core/fit/flare_fit.h"
+#include "core/fit/fit_setup.h"
 
 namespace ghostlight::cli {
 
@@ -17,11 +16,7 @@ struct PhotoOptions {
 };
 void add_photos(CLI::App& command, PhotoOptions& options);
 
-/// Reads, masks and places them. Throws Error.
-std::vector<FitPhoto> photos_of(const PhotoOptions& options, const Prescription& lens,
-                                Notes& notes);
-
-/// The options again, for a report, as far as they are not the usual ones.
-std::string command_text(const PhotoOptions& options);
+/// The photographs of a set-up, and whether they are merged. Throws Error.
+FitSetup photo_setup_of(const PhotoOptions& options);
 
 }  // namespace ghostlight::cli

@@ -1,7 +1,9 @@
 #include "core/fit/fit_setup.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
-#include <array>
 
 #include "core/error.h"
 #include "core/ghosts/ghost_path.h"
@@ -15,11 +17,28 @@ std::vector<std::string> ghosts_in(std::string_view text, const OpticalSystem& s
     std::vector<std::string> names;
     while (!text.empty()) {
         const std::size_t comma = text.find(',');
-        names.push_back(name(parse_ghost(text.substr(0, comma), system), system.surfaces.size()));
+        std::string_view word = text.substr(0, comma);
+        while (word.starts_with(' ')) word.remove_prefix(1);
+        while (word.ends_with(' ')) word.remove_suffix(1);
+        names.push_back(name(parse_ghost(word, system), system.surfaces.size()));
         if (comma == std::string_view::npos) break;
         text.remove_prefix(comma + 1);
     }
     return names;
+}
+
+/// " --option value", one value for all photographs or one each; nothing where they are all usual.
+template <class Value>
+std::string photo_option(const FitSetup& setup, std::string_view option, char separator,
+                         const Value& value) {
+    const std::string usual = value(FitPhotoSetup());
+    std::vector<std::string> values;
+    for (const FitPhotoSetup& each : setup.photos) values.push_back(value(each));
+    const auto is_usual = [&](const std::string& each) { return each == usual; };
+    if (std::ranges::all_of(values, is_usual)) return {};
+    if (std::ranges::all_of(values, [&](const auto& each) { return each == values.front(); }))
+        values.resize(1);
+    return fmt::format(" {} \"{}\"", option, fmt::join(values, std::string_view(&separator, 1)));
 }
 
 }  // namespace
@@ -48,6 +67,36 @@ std::vector<std::string> ghosts_left_out(const std::string& left_out, const std:
             names.push_back(each);
     }
     return names;
+}
+
+std::string fit_command(const FitSetup& setup, const std::string& lens) {
+    const FitSetup usual;
+    auto text_if = [](const auto& value) { return value ? text_of(*value) : std::string(); };
+    auto number_if = [](const auto& value) { return value ? fmt::format("{}", *value) : ""; };
+    std::vector<std::string> files;
+    for (const FitPhotoSetup& each : setup.photos) files.push_back(each.file);
+    std::string text = fmt::format("fit {} --photo {}{}", lens, fmt::join(files, ","),
+                                   setup.merge ? " --merge" : "");
+    auto add = [&](const char* option, char separator, const auto& value) {
+        text += photo_option(setup, option, separator, value);
+    };
+    add("--light", ';', [](const FitPhotoSetup& p) { return p.light; });
+    add("--photo-mask", ',', [](const FitPhotoSetup& p) { return p.mask_file; });
+    add("--mask-region", ';', [](const FitPhotoSetup& p) { return text_of(p.masked); });
+    add("--crop", ';', [&](const FitPhotoSetup& p) { return text_if(p.crop); });
+    add("--photo-width", ';', [&](const FitPhotoSetup& p) { return number_if(p.width_mm); });
+    add("--principal", ';', [&](const FitPhotoSetup& p) { return text_if(p.axis); });
+    add("--rotation", ';',
+        [](const FitPhotoSetup& p) { return fmt::format("{}", p.rotation_deg); });
+    add("--photo-noise", ';', [&](const FitPhotoSetup& p) { return text_if(p.noise); });
+    add("--saturation", ';', [&](const FitPhotoSetup& p) { return number_if(p.saturation); });
+    text += fmt::format(" --vary {} --spectrum \"{}\"", setup.vary, setup.spectrum);
+    if (!setup.left_out.empty()) text += " --leave-out " + setup.left_out;
+    if (!setup.only.empty()) text += " --use-ghosts " + setup.only;
+    if (setup.loss != usual.loss) text += " --loss " + name(setup.loss);
+    if (setup.loss_scale != usual.loss_scale)
+        text += fmt::format(" --loss-scale {}", setup.loss_scale);
+    return text + fmt::format(" --seed {}", setup.seed);
 }
 
 FitRequest fit_request(const FitSetup& setup, const Prescription& lens) {

@@ -35,6 +35,9 @@ FitLoss parse_loss(std::string_view text);
 std::vector<std::string> ghosts_left_out(const std::string& left_out, const std::string& only,
                                          const Prescription& lens);
 
+/// What `ghostlight-cli` makes the same fit by.
+std::string fit_command(const FitSetup& setup, const std::string& lens);
+
 /// Throws Error like parse_vary(), parse_spectrum() and ghosts_left_out().
 FitRequest fit_request(const FitSetup& setup, const Prescription& lens);
 
