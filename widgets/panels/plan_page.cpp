@@ -24,7 +24,7 @@ QString bound_text(const PlanReport& plan, const Omission& each) {
         return QStringLiteral("–");
     }
     if (*each.bound_mm2 == 0.0) {
-        return QStringLiteral("nothing");
+        return PlanPage::tr("nothing");
     }
     return plan.flux_mm2 > 0.0 ? (each.proven ? QStringLiteral("≤ ") : QStringLiteral("≈ ")) +
                                      percent(*each.bound_mm2 / plan.flux_mm2)
