@@ -30,30 +30,37 @@ namespace ghostlight {
 
 namespace {
 
-constexpr const char* what_is_here =
-    "The coating of the surface chosen in the prescription: its layers, what it reflects, and the "
-    "ghosts that it feeds.";
+QString what_is_here() {
+    return CoatingPanel::tr(
+        "The coating of the surface chosen in the prescription: its layers, what it reflects, and "
+        "the ghosts that it feeds.");
+}
 constexpr const char* kind_names[coating_kinds] = {
-    "None", "Quarter wave, MgF2", "Quarter wave, ideal", "Layers", "Constant R", "Measured table"};
+    QT_TRANSLATE_NOOP("ghostlight::CoatingPanel", "None"),
+    QT_TRANSLATE_NOOP("ghostlight::CoatingPanel", "Quarter wave, MgF2"),
+    QT_TRANSLATE_NOOP("ghostlight::CoatingPanel", "Quarter wave, ideal"),
+    QT_TRANSLATE_NOOP("ghostlight::CoatingPanel", "Layers"),
+    QT_TRANSLATE_NOOP("ghostlight::CoatingPanel", "Constant R"),
+    QT_TRANSLATE_NOOP("ghostlight::CoatingPanel", "Measured table")};
 
 }  // namespace
 
 CoatingPanel::CoatingPanel(Document& document, Selection& selection, const Actions& actions,
                            QWidget* parent)
-    : PagedPanel("Coating", what_is_here, actions, parent),
+    : PagedPanel(tr("Coating"), what_is_here(), actions, parent),
       document_(document),
       selection_(selection),
       kind_(new QComboBox),
       model_(new QStandardItemModel(this)),
       table_(plain_table(model_, new TableDelegate(-1, -1, this))),
-      add_(quiet_button("+ Layer", "A layer after the chosen one", false)),
-      remove_(quiet_button("− Layer", "Take the chosen layer away", false)),
-      turn_(quiet_button("⇅ Turn", "The same layers in reverse order", false)),
+      add_(quiet_button(tr("+ Layer"), tr("A layer after the chosen one"), false)),
+      remove_(quiet_button(tr("− Layer"), tr("Take the chosen layer away"), false)),
+      turn_(quiet_button(tr("⇅ Turn"), tr("The same layers in reverse order"), false)),
       fed_label_(new QLabel),
       side_(new QComboBox),
       wavelength_(new QLineEdit),
-      wavelength_chart_(new CurveChart("R over wavelength", "nm")),
-      angle_chart_(new CurveChart("R over angle", "°")),
+      wavelength_chart_(new CurveChart(tr("R over wavelength"), "nm")),
+      angle_chart_(new CurveChart(tr("R over angle"), "°")),
       targets_(new QLineEdit) {
     setObjectName("coating_panel");
     build();
@@ -71,7 +78,7 @@ CoatingPanel::CoatingPanel(Document& document, Selection& selection, const Actio
 
 void CoatingPanel::build() {
     for (const char* name : kind_names) {
-        kind_->addItem(name);
+        kind_->addItem(tr(name));
     }
     kind_->insertSeparator(coating_kinds);
     try {
@@ -83,32 +90,32 @@ void CoatingPanel::build() {
     } catch (const Error& error) {
         kind_->setToolTip(error.what());  // the plain kinds are there all the same
     }
-    kind_->setAccessibleName("Kind of coating");
-    model_->setHorizontalHeaderLabels({"#", "Material", "n 550", "nm", "k"});
+    kind_->setAccessibleName(tr("Kind of coating"));
+    model_->setHorizontalHeaderLabels({"#", tr("Material"), "n 550", "nm", "k"});
     for (const int column : {number_column, index_column, thickness_column, k_column}) {
         model_->horizontalHeaderItem(column)->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
     }
     model_->horizontalHeaderItem(number_column)
-        ->setToolTip("Layers count from the side that light comes from, or from the air");
+        ->setToolTip(tr("Layers count from the side that light comes from, or from the air"));
     model_->horizontalHeaderItem(material_column)
-        ->setToolTip("MgF2, a catalogue name, or an index at every wavelength");
+        ->setToolTip(tr("MgF2, a catalogue name, or an index at every wavelength"));
     model_->horizontalHeaderItem(thickness_column)
-        ->setToolTip("Thickness in nm; arithmetic is taken: =550/4/1.38");
+        ->setToolTip(tr("Thickness in nm; arithmetic is taken: =550/4/1.38"));
     model_->horizontalHeaderItem(k_column)->setToolTip(
-        "Extinction k of n + ik; 0 for a layer that does not absorb");
+        tr("Extinction k of n + ik; 0 for a layer that does not absorb"));
     table_->setObjectName("layer_table");
     table_->setSelectionMode(QAbstractItemView::SingleSelection);
     table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
-    side_->addItems({"from the front", "from behind"});
-    side_->setToolTip("From where the light comes: the angle is the one in the medium there");
-    side_->setAccessibleName("Side that the light comes from");
+    side_->addItems({tr("from the front"), tr("from behind")});
+    side_->setToolTip(tr("From where the light comes: the angle is the one in the medium there"));
+    side_->setAccessibleName(tr("Side that the light comes from"));
     wavelength_->setText("550");
     wavelength_->setFixedWidth(56);
-    wavelength_->setAccessibleName("Wavelength of the curve over the angle in nm");
-    wavelength_->setToolTip("Wavelength of the curve over the angle, nm");
+    wavelength_->setAccessibleName(tr("Wavelength of the curve over the angle in nm"));
+    wavelength_->setToolTip(tr("Wavelength of the curve over the angle, nm"));
     targets_->setPlaceholderText("2-5, 8");
-    targets_->setAccessibleName("Surfaces to copy the coating to");
-    targets_->setToolTip("Surfaces that get the same coating: 2-5, 8");
+    targets_->setAccessibleName(tr("Surfaces to copy the coating to"));
+    targets_->setToolTip(tr("Surfaces that get the same coating: 2-5, 8"));
     fed_label_->setWordWrap(true);
     fed_label_->setTextFormat(Qt::RichText);
     fed_label_->setTextInteractionFlags(Qt::LinksAccessibleByMouse | Qt::LinksAccessibleByKeyboard);
@@ -133,16 +140,16 @@ void CoatingPanel::build() {
     fed_row->setContentsMargins(12, 0, 12, 0);
     fed_row->addWidget(fed_label_, 1);
     column->addLayout(fed_row);
-    add_row({new QLabel("Light"), side_, new QLabel("at"), wavelength_, new QLabel("nm")});
+    add_row({new QLabel(tr("Light")), side_, new QLabel(tr("at")), wavelength_, new QLabel("nm")});
     auto* charts = new QHBoxLayout;
     charts->setSpacing(0);
     charts->addWidget(angle_chart_, 1);
     charts->addWidget(wavelength_chart_, 1);
     column->addLayout(charts, 1);
-    auto* copy = new QPushButton("Copy");
-    auto* everywhere = new QPushButton("To all that face air");
-    everywhere->setToolTip("The same coating on every surface between air and glass");
-    add_row({new QLabel("Copy to"), targets_, copy, everywhere});
+    auto* copy = new QPushButton(tr("Copy"));
+    auto* everywhere = new QPushButton(tr("To all that face air"));
+    everywhere->setToolTip(tr("The same coating on every surface between air and glass"));
+    add_row({new QLabel(tr("Copy to")), targets_, copy, everywhere});
 
     auto* scroll = new QScrollArea;
     scroll->setFrameShape(QFrame::NoFrame);
@@ -154,7 +161,7 @@ void CoatingPanel::build() {
     connect(kind_, &QComboBox::activated, this, &CoatingPanel::choose_kind);
     connect(model_, &QStandardItemModel::itemChanged, this, &CoatingPanel::change_layer);
     connect(add_, &QToolButton::clicked, this, [this] {
-        change_stack("add a layer to the coating", [](LayerStack& stack, std::size_t at) {
+        change_stack(tr("add a layer to the coating"), [](LayerStack& stack, std::size_t at) {
             const Layer like =
                 stack.layers.empty() ? Layer{magnesium_fluoride(), 100.0} : stack.layers[at];
             stack.layers.insert(stack.layers.begin() + static_cast<std::ptrdiff_t>(
@@ -163,14 +170,14 @@ void CoatingPanel::build() {
         });
     });
     connect(remove_, &QToolButton::clicked, this, [this] {
-        change_stack("remove a layer of the coating", [](LayerStack& stack, std::size_t at) {
+        change_stack(tr("remove a layer of the coating"), [](LayerStack& stack, std::size_t at) {
             if (at < stack.layers.size()) {
                 stack.layers.erase(stack.layers.begin() + static_cast<std::ptrdiff_t>(at));
             }
         });
     });
     connect(turn_, &QToolButton::clicked, this, [this] {
-        change_stack("turn the coating",
+        change_stack(tr("turn the coating"),
                      [](LayerStack& stack, std::size_t) { std::ranges::reverse(stack.layers); });
     });
     connect(side_, &QComboBox::activated, this, [this] {

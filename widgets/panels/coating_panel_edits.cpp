@@ -49,7 +49,7 @@ void CoatingPanel::choose_kind(int at) {
     const auto row = static_cast<std::size_t>(row_);
     const Medium& before = medium_before(document_.lens(), row);
     const Medium& after = document_.lens().surfaces[row].medium_after;
-    attempt(QStringLiteral("change coating of surface %1").arg(row_ + 1), [&](Prescription& lens) {
+    attempt(tr("change coating of surface %1").arg(row_ + 1), [&](Prescription& lens) {
         Coating& chosen = lens.surfaces[row].coating;
         if (at < coating_kinds) {
             chosen = as_kind(chosen, static_cast<CoatingKind>(at), before, after);
@@ -80,7 +80,7 @@ void CoatingPanel::change_layer(QStandardItem* item) {
     const int column = item->column();
     const QString text = item->text();
     attempt(
-        QStringLiteral("change coating of surface %1").arg(row_ + 1),
+        tr("change coating of surface %1").arg(row_ + 1),
         [&](Prescription& lens) {
             Coating& changed = lens.surfaces[static_cast<std::size_t>(row_)].coating;
             if (auto* stack = std::get_if<LayerStack>(&changed)) {
@@ -88,9 +88,9 @@ void CoatingPanel::change_layer(QStandardItem* item) {
                 if (column == material_column) {
                     layer.medium = read_layer_medium(text);
                 } else if (column == thickness_column) {
-                    layer.thickness_nm = read_number(text, "a thickness in nm", CellUnit::nm);
+                    layer.thickness_nm = read_number(text, tr("a thickness in nm"), CellUnit::nm);
                 } else {
-                    layer.extinction = read_number(text, "an extinction, 0 or more");
+                    layer.extinction = read_number(text, tr("an extinction, 0 or more"));
                     layer.extinction_table = {};
                 }
                 stack->name.clear();
@@ -102,10 +102,10 @@ void CoatingPanel::change_layer(QStandardItem* item) {
                             : std::variant<IdealIndex, Medium>(read_layer_medium(text));
                 } else {
                     quarter->center_nm =
-                        read_positive(text, "a centre wavelength in nm", CellUnit::nm);
+                        read_positive(text, tr("a centre wavelength in nm"), CellUnit::nm);
                 }
             } else if (auto* fixed = std::get_if<ConstantReflectance>(&changed)) {
-                const double share = read_number(text, "per cent, from 0 to 100") / 100.0;
+                const double share = read_number(text, tr("per cent, from 0 to 100")) / 100.0;
                 *fixed = ConstantReflectance{share, 1.0 - share};
             }
         },
@@ -116,9 +116,7 @@ void CoatingPanel::copy_to(const std::vector<std::size_t>& rows) {
     if (!has_surface()) {
         return;
     }
-    attempt(QStringLiteral("copy the coating of surface %1 to %2 surfaces")
-                .arg(row_ + 1)
-                .arg(rows.size()),
+    attempt(tr("copy the coating of surface %1 to %2 surfaces").arg(row_ + 1).arg(rows.size()),
             [&](Prescription& lens) {
                 const Coating copied = coating();
                 for (const std::size_t row : rows) {

@@ -112,14 +112,15 @@ void CoatingPanel::show_layers() {
             const QString name = layer.medium.name.empty()
                                      ? index_text(layer.medium)
                                      : QString::fromStdString(layer.medium.name);
-            rows << cells({QString::number(++number), name, index_text(layer.medium),
-                           shortest(layer.thickness_nm),
-                           layer.extinction_table.empty() ? shortest(layer.extinction) : "table"},
-                          {false, true, false, true, true});
+            rows << cells(
+                {QString::number(++number), name, index_text(layer.medium),
+                 shortest(layer.thickness_nm),
+                 layer.extinction_table.empty() ? shortest(layer.extinction) : tr("table")},
+                {false, true, false, true, true});
         }
     } else if (const auto* quarter = std::get_if<QuarterWave>(&coating())) {
         const auto* medium = std::get_if<Medium>(&quarter->layer);
-        thickness_header = "centre nm";
+        thickness_header = tr("centre nm");
         rows << cells({"1",
                        medium == nullptr       ? "ideal"
                        : !medium->name.empty() ? QString::fromStdString(medium->name)
@@ -129,8 +130,9 @@ void CoatingPanel::show_layers() {
                       {false, true, false, true, false});
     } else if (const auto* fixed = std::get_if<ConstantReflectance>(&coating())) {
         thickness_header = "R %";
-        rows << cells({"1", "at every wavelength", "", shortest(fixed->reflectance * 100.0), ""},
-                      {false, false, false, true, false});
+        rows << cells(
+            {"1", tr("at every wavelength"), "", shortest(fixed->reflectance * 100.0), ""},
+            {false, false, false, true, false});
     }
     model_->setRowCount(0);
     for (const auto& row : rows) {
@@ -139,7 +141,7 @@ void CoatingPanel::show_layers() {
     model_->horizontalHeaderItem(thickness_column)->setText(thickness_header);
     const bool from_air =
         std::holds_alternative<LayerStack>(coating()) && std::get<LayerStack>(coating()).from_air;
-    model_->horizontalHeaderItem(number_column)->setText(from_air ? "# air" : "#");
+    model_->horizontalHeaderItem(number_column)->setText(from_air ? tr("# air") : "#");
     fit_columns(*table_);
     table_->setVisible(!rows.isEmpty());
     constexpr int most_shown = 6;
@@ -160,21 +162,22 @@ void CoatingPanel::show_ghosts() {
     fed_ = ghosts_ ? ghosts_of_surface(*ghosts_, static_cast<std::size_t>(row_))
                    : std::vector<SurfaceGhost>();
     if (fed_.empty()) {
-        fed_label_->setText(ghosts_ ? "No ghost turns here." : "The ghosts are not traced yet.");
+        fed_label_->setText(ghosts_ ? tr("No ghost turns here.")
+                                    : tr("The ghosts are not traced yet."));
         return;
     }
     QStringList named;
     for (std::size_t k = 0; k < std::min<std::size_t>(fed_.size(), 2); ++k) {
         const SurfaceGhost& ghost = fed_[k];
-        named << QStringLiteral("<a href=\"%1\">%2</a> %3 mm², met at %4° (up to %5°) %6")
+        named << tr("<a href=\"%1\">%2</a> %3 mm², met at %4° (up to %5°) %6")
                      .arg(QString::number(k),
                           QString::fromStdString(name(ghost.path, ghosts_->surface_count)),
                           significant(ghost.flux_mm2, 3),
                           QString::number(ghost.turn.incidence_deg, 'f', 1),
                           QString::number(ghost.turn.largest_incidence_deg, 'f', 1),
-                          ghost.from_front ? "from the front" : "from behind");
+                          ghost.from_front ? tr("from the front") : tr("from behind"));
     }
-    fed_label_->setText("Feeds most: " + named.join("<br>then "));
+    fed_label_->setText(tr("Feeds most: ") + named.join(tr("<br>then ")));
     if (!side_is_chosen_) {
         side_->setCurrentIndex(fed_.front().from_front ? 0 : 1);
     }
@@ -219,10 +222,10 @@ void CoatingPanel::show_curves() {
     }
     try {
         angle_chart_->show_curves(curves_of(over_angle(surface, nm, last_deg, points)), marks,
-                                  QStringLiteral("R % over angle, %1 nm").arg(shortest(nm)));
+                                  tr("R % over angle, %1 nm").arg(shortest(nm)));
         wavelength_chart_->show_curves(
             curves_of(over_wavelength(surface, met_deg, first_nm, last_nm, points)), {},
-            QStringLiteral("R % over wavelength, %1°").arg(QString::number(met_deg, 'f', 1)));
+            tr("R % over wavelength, %1°").arg(QString::number(met_deg, 'f', 1)));
     } catch (const Error& error) {
         angle_chart_->show_reason(error.what());
         wavelength_chart_->show_reason(error.what());

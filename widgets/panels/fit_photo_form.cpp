@@ -18,7 +18,7 @@ double number_of(const QString& what, const QString& text, const QString& expect
                  bool (*accepts)(double)) {
     const auto number = parse_number(text);
     if (!number || !accepts(*number)) {
-        throw Error({.problem = what.toStdString() + " cannot be taken",
+        throw Error({.problem = FitPhotoForm::tr("%1 cannot be taken").arg(what).toStdString(),
                      .file = {},
                      .where = {},
                      .found = "'" + text.toStdString() + "'",

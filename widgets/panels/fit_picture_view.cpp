@@ -69,22 +69,22 @@ QPainterPath path_of(const MaskRegion& region) {
     return path;
 }
 
-const char* tip_of(FitPictureView::Tool tool) {
+QString tip_of(FitPictureView::Tool tool) {
     switch (tool) {
         case FitPictureView::Tool::light:
-            return "Click where the light is";
+            return FitPictureView::tr("Click where the light is");
         case FitPictureView::Tool::box:
-            return "Drag over what is not to count";
+            return FitPictureView::tr("Drag over what is not to count");
         case FitPictureView::Tool::lasso:
-            return "Draw around what is not to count";
+            return FitPictureView::tr("Draw around what is not to count");
         case FitPictureView::Tool::brush:
-            return "Paint over what is not to count";
+            return FitPictureView::tr("Paint over what is not to count");
         case FitPictureView::Tool::erase:
-            return "Click a painted region to take it away";
+            return FitPictureView::tr("Click a painted region to take it away");
         case FitPictureView::Tool::crop:
-            return "Drag over what is to count; a click: all";
+            return FitPictureView::tr("Drag over what is to count; a click: all");
     }
-    return "";
+    return {};
 }
 
 }  // namespace
@@ -123,7 +123,7 @@ void FitPictureView::set_mode(Mode mode) {
 void FitPictureView::set_tool(Tool tool) {
     tool_ = tool;
     forget_drawing();
-    setToolTip(tr(tip_of(tool)));
+    setToolTip(tip_of(tool));
     setCursor(tool == Tool::erase ? Qt::ArrowCursor : Qt::CrossCursor);
 }
 

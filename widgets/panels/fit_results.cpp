@@ -64,13 +64,14 @@ QString html_of(const FitReport& report) {
     for (const std::string& remark : report.remarks) {
         html += QStringLiteral("<p>%1</p>").arg(escaped(remark));
     }
-    say("Determined:", list_of(report, FitKnowledge::determined));
-    say("Weakly known:", list_of(report, FitKnowledge::weak));
-    say("Known by their priors alone:", list_of(report, FitKnowledge::prior));
-    say("Held, as no visible ghost feels them:", list_of(report, FitKnowledge::not_felt));
-    say("At a bound:", list_of(report, FitKnowledge::at_bound));
+    say(FitResults::tr("Determined:"), list_of(report, FitKnowledge::determined));
+    say(FitResults::tr("Weakly known:"), list_of(report, FitKnowledge::weak));
+    say(FitResults::tr("Known by their priors alone:"), list_of(report, FitKnowledge::prior));
+    say(FitResults::tr("Held, as no visible ghost feels them:"),
+        list_of(report, FitKnowledge::not_felt));
+    say(FitResults::tr("At a bound:"), list_of(report, FitKnowledge::at_bound));
     if (!report.unknown.empty()) {
-        html += QStringLiteral(
+        html += FitResults::tr(
                     "<p><span style=\"color:%1\">Combinations that the photographs do "
                     "not determine, and their width over the prior's:</span></p><ul>")
                     .arg(colors.dim.name());
@@ -83,7 +84,7 @@ QString html_of(const FitReport& report) {
         html += "</ul>";
     }
     say("χ²",
-        QStringLiteral("%1 for %2 residuals; %3 % of the photograph explained (%4 % at the "
+        FitResults::tr("%1 for %2 residuals; %3 % of the photograph explained (%4 % at the "
                        "start), %5 % outliers, errors widened × %6")
             .arg(significant(report.chi2), grouped(report.residuals),
                  significant(100.0 * report.explained_after, 3),
@@ -91,15 +92,15 @@ QString html_of(const FitReport& report) {
                  significant(100.0 * report.outliers, 2), significant(report.error_scale, 3)));
     if (!report.suggestions.empty()) {
         const Suggestion& best = report.suggestions.front();
-        say("The photograph that would help most:",
-            QStringLiteral("light at %1°: %2 from ± %3 to ± %4 %5")
+        say(FitResults::tr("The photograph that would help most:"),
+            FitResults::tr("light at %1°: %2 from ± %3 to ± %4 %5")
                 .arg(significant(best.light.field_deg, 3), named(report, best.number),
                      significant(best.error_now, 2), significant(best.error_then, 2),
                      escaped(unit(report.numbers[best.number].parameter))));
     }
-    say("Time", QStringLiteral("%1 s, %2 iterations")
-                    .arg(significant(report.seconds, 3))
-                    .arg(report.iterations));
+    say(FitResults::tr("Time"), FitResults::tr("%1 s, %2 iterations")
+                                    .arg(significant(report.seconds, 3))
+                                    .arg(report.iterations));
     return html;
 }
 

@@ -200,11 +200,11 @@ QHBoxLayout* FitVariables::make_more() {
         change(tr("change the loss's scale"), [this](FitSetup& setup) {
             const auto number = parse_number(loss_scale_->text());
             if (!number || !(*number > 0.0)) {
-                throw Error({.problem = "the loss's scale cannot be taken",
+                throw Error({.problem = tr("the loss's scale cannot be taken").toStdString(),
                              .file = {},
                              .where = {},
                              .found = "'" + loss_scale_->text().toStdString() + "'",
-                             .expected = "standard deviations above 0"});
+                             .expected = tr("standard deviations above 0").toStdString()});
             }
             setup.loss_scale = *number;
         });
