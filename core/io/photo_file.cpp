@@ -52,6 +52,7 @@ std::unique_ptr<OIIO::ImageInput> opened(const std::filesystem::path& file, bool
         // exposures.
         config.attribute("raw:adjust_maximum_thr", 0.0F);
         config.attribute("raw:HighlightMode", 1);
+        config.attribute("raw:balance_clamped", 0);  // of a balance that is none
         config.attribute("raw:user_flip", 0);  // as the sensor has it
     }
     auto input = OIIO::ImageInput::open(file.string(), &config);
