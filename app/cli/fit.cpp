@@ -22,7 +22,8 @@ struct FitOptions {
     SpectrumOptions spectrum{.wavelength = {}, .spectrum = "D65"};
     std::string photos, lights = "auto", vary, out, page, masks, principal, rotation = "0",
                         width_mm, left_out, loss = "cauchy", scale = "4", error = "0.3",
-                        across = "96", background = "3", starts = "6", suggest = "4", seed = "1";
+                        across = "96", kinds, kind_rows, background = "3", starts = "6",
+                        suggest = "4", seed = "1";
     bool fixed_place = false, merge = false;
     OutputOptions output;
 };
@@ -84,6 +85,18 @@ void run(const FitOptions& options) {
                         [&] { return parse_ghost(part, compile(loaded.lens, d_line_nm)); });
             request.left_out.emplace_back(part);
         }
+
+    if (!options.kinds.empty())
+        for (const auto part : split(options.kinds, ','))
+            request.kinds.push_back(
+                {std::string(part), read_option("--kinds", [&] { return parse_coating(part); })});
+    if (!options.kind_rows.empty())
+        for (const auto part : split(options.kind_rows, ','))
+            request.kind_rows.push_back(static_cast<std::size_t>(
+                integer_value("--kind-rows", std::string(part),
+                              fmt::format("surfaces 1 to {}", loaded.lens.surfaces.size()), 1,
+                              static_cast<std::int64_t>(loaded.lens.surfaces.size())) -
+                1));
 
     const auto files = split(options.photos, ',');
     // Places are X,Y: lights of several photographs are separated by semicolons.
@@ -175,6 +188,7 @@ void run(const FitOptions& options) {
                                text += (text.size() > 1 ? ", " : "") + json_value(each);
                            return text + "]";
                        }()},
+                      {"kinds", table_json(fit_kind_table(report))},
                       {"ghosts", table_json(fit_ghost_table(report))}};
     answer.heading = fmt::format("{}\n{}", lens_heading(loaded), report.verdict);
     for (const std::string& remark : report.remarks) answer.heading += "\n" + remark;
@@ -226,6 +240,11 @@ void add_fit(CLI::App& program) {
         ->capture_default_str();
     add_text(*command, "--leave-out", options->left_out, "GHOSTS",
              "ghosts that do not count: 5-3,7-2");
+    add_text(*command, "--kinds", options.kinds, "LIST",
+             "choose each surface's kind of coating from these and the listed one, strongest\n"
+             "surfaces first: none, qw:NM[:INDEX] or names of the coating library");
+    add_text(*command, "--kind-rows", options.kind_rows, "ROWS",
+             "surfaces whose kind is chosen: 1,3,6; default: those whose coating is varied");
     command->add_flag("--fixed-place", options->fixed_place,
                       "light, shift and rotation are exact, not fitted");
     add_text(*command, "--loss", options->loss, "NAME", "none, huber, cauchy or tukey")

@@ -102,6 +102,7 @@ std::vector<FitMinimum> CoatingSearch::descend_all(const std::vector<std::vector
             for (std::size_t i = 0; i < views.size(); ++i)
                 views[i].log_gain_start = views_[i].log_gain_start;
             FitEvaluator evaluator(layout_, views, weights, 1);
+            evaluator.set_stop(stop);
             evaluator.x = points[k];
             evaluator.start_gains();
             const Descent descent = descend(evaluator, loss_, loss_scale_, iterations,

@@ -38,6 +38,7 @@ Descent descend(FitEvaluator& evaluator, FitLoss loss, double loss_scale, int it
 
 double cost_of(FitEvaluator& evaluator, FitLoss loss, double loss_scale) {
     evaluator.PrepareForEvaluation(false, true);
+    if (evaluator.stopped()) return std::numeric_limits<double>::infinity();
     const auto rho = make_loss(loss, loss_scale);
     double cost = 0.0;
     for (std::size_t i = 0; i < evaluator.views().size(); ++i) {

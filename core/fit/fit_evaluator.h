@@ -3,6 +3,8 @@
 #include <ceres/ceres.h>
 
 #include <memory>
+#include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "core/fit/flare_fit.h"
@@ -68,6 +70,11 @@ class FitEvaluator final : public ceres::EvaluationCallback {
     /// Where the geometry's and places' slopes hold.
     std::vector<double> linearised_at;
 
+    /// Nothing is worked out any more once this is asked: every evaluation fails at once, which
+    /// ends a solver that is under way.
+    void set_stop(std::stop_token stop) { stop_ = std::move(stop); }
+    bool stopped() const { return stopped_; }
+
     void PrepareForEvaluation(bool jacobians, bool new_point) override;
 
     const std::vector<double>& residuals(std::size_t photo) const { return residuals_[photo]; }
@@ -95,6 +102,8 @@ class FitEvaluator final : public ceres::EvaluationCallback {
     std::vector<ModelPicture> pictures_;
     std::vector<double> pictured_at_;
     bool pictured_slopes_ = false;
+    std::stop_token stop_;
+    bool stopped_ = false;
 
     void picture(bool slopes);
 };

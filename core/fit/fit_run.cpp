@@ -28,6 +28,10 @@ FitReport FitRun::run() {
     look_at_start();
     share_ = 0.2;
     solve_coatings();
+    if (!request_.kinds.empty() && choose_kinds()) {
+        expect_errors();
+        solve_coatings();
+    }
     share_ = 0.4;
     settle(first_linearisations);
     share_ = 0.6;
@@ -112,13 +116,15 @@ void FitRun::prepare() {
     }
 }
 
-FittedLens FitRun::current_geometry() const {
+FittedLens FitRun::current_geometry() const { return geometry_moved(layout_.geometry.size(), 0.0); }
+
+FittedLens FitRun::geometry_moved(std::size_t which, double by) const {
     FittedLens lens = listed_;
     for (std::size_t q = 0; q < layout_.geometry.size(); ++q) {
         const FitParameter& p = layout_.geometry[q];
-        const double moved =
-            evaluator_ ? evaluator_->x[layout_.coatings.size() + q] * p.prior : 0.0;
-        set(lens, p, p.start + moved);
+        const double x = (evaluator_ ? evaluator_->x[layout_.coatings.size() + q] : 0.0) +
+                         (q == which ? by : 0.0);
+        set(lens, p, p.start + x * p.prior);
     }
     return lens;
 }
@@ -175,7 +181,7 @@ void FitRun::build() {
                      .found = fmt::format("light at a field angle of {:.3g} degrees",
                                           photos_.front().light.field_deg),
                      .expected = "a light from which the lens makes ghosts on the sensor; is "
-                                 "--light right?"});
+                                 "the light's place right?"});
     auto weights = std::make_unique<GhostWeights>(*scene, all, layout_.coatings, request_.threads);
     scene_ = std::move(scene);
     weights_ = std::move(weights);
@@ -186,7 +192,7 @@ void FitRun::build() {
 std::vector<double> FitRun::signals(std::size_t photo) {
     FitView& view = views_[photo];
     std::vector<double> result(view.bases.size());
-    parallel_for(view.bases.size(), request_.threads, {}, [&](std::size_t g) {
+    parallel_for(view.bases.size(), request_.threads, stop_, [&](std::size_t g) {
         const ModelPicture one = one_ghost(view.bases[g], *weights_, view.data.frame);
         double sum = 0.0;
         for (std::size_t s = 0; s < view.data.samples(); ++s) {
@@ -209,6 +215,7 @@ void FitRun::refresh() {
     const std::vector<double> x = evaluator_->x, at = evaluator_->linearised_at;
     weights_ = std::make_unique<GhostWeights>(*scene_, all, layout_.coatings, request_.threads);
     auto next = std::make_unique<FitEvaluator>(layout_, views_, *weights_, request_.threads);
+    next->set_stop(stop_);
     if (x.size() == next->x.size()) {
         next->x = x;
         next->linearised_at = at;

@@ -72,9 +72,10 @@ void check_shape(const Photo& photo, const Prescription& lens) {
          .expected = fmt::format(
              "{:.4g} : {:.4g} as the sensor of {:.4g} x {:.4g} mm; {}", lens.sensor.width_mm,
              lens.sensor.height_mm, lens.sensor.width_mm, lens.sensor.height_mm,
-             turned
-                 ? "turn the picture, or give --sensor HxW"
-                 : "give --sensor WxH of the camera, or --photo-width MM of a cropped picture")});
+             turned ? "turn the picture, or swap the sensor's width and height (--sensor HxW)"
+                    : "the sensor's size as the camera has it (--sensor WxH), or the width of a "
+                      "cropped "
+                      "picture (--photo-width MM)")});
 }
 
 LightDirection light_at(const OpticalSystem& system, const FitPhoto& photo, double column,

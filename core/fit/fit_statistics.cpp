@@ -23,11 +23,12 @@ void correlate(const RowMatrix& from, int width, int height, bool along_x, RowMa
 }  // namespace
 
 FitInformation information(const FitEvaluator& evaluator, FitLoss loss, double loss_scale,
-                           double ghost_error) {
+                           double ghost_error, const std::stop_token& stop) {
     const auto count = static_cast<Eigen::Index>(evaluator.layout().count());
     FitInformation info{Eigen::MatrixXd::Identity(count, count),
                         Eigen::MatrixXd::Identity(count, count)};
     const auto rho = make_loss(loss, loss_scale);
+    if (evaluator.stopped()) return info;
     auto& views = const_cast<FitEvaluator&>(evaluator).views();
     auto& weights = const_cast<FitEvaluator&>(evaluator).weights();
     for (std::size_t i = 0; i < views.size(); ++i) {
@@ -61,6 +62,7 @@ FitInformation information(const FitEvaluator& evaluator, FitLoss loss, double l
             // Each ghost's light may be off as a whole.
             if (ghost_error <= 0.0) continue;
             for (const GhostBasis& basis : view.bases) {
+                if (stop.stop_requested()) return info;
                 std::vector<double> coefficients;
                 weights.coefficients(basis, coefficients, nullptr);
                 Eigen::VectorXd moved = Eigen::VectorXd::Zero(count);

@@ -154,6 +154,17 @@ Table fit_ghost_table(const FitReport& report) {
     return table;
 }
 
+Table fit_kind_table(const FitReport& report) {
+    Table table;
+    table.columns = {"surface", "kind", "numbers", "chi2_above", "bic_above", "share"};
+    for (const SurfaceKinds& surface : report.kinds)
+        for (const KindTried& each : surface.tried)
+            table.rows.push_back({static_cast<std::int64_t>(surface.row + 1), each.name,
+                                  static_cast<std::int64_t>(each.numbers), each.chi2_above,
+                                  each.bic_above, each.share});
+    return table;
+}
+
 std::string fit_page(const FitReport& report, const std::string& lens, const std::string& command) {
     std::string html = fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Fit of {0}</title>"
@@ -182,6 +193,14 @@ std::string fit_page(const FitReport& report, const std::string& lens, const std
         report.error_scale > 1.0
             ? fmt::format(" and are widened by {:.2f} for the misfit", report.error_scale)
             : "");
+    if (!report.kinds.empty())
+        html += "<h2>Kinds of coating</h2>\n" +
+                html_table(fit_kind_table(report), {{"surface", "surface"},
+                                                    {"kind", "kind"},
+                                                    {"numbers", "fitted<br>numbers"},
+                                                    {"chi2_above", "χ² above<br>the lowest"},
+                                                    {"bic_above", "BIC above<br>the best"},
+                                                    {"share", "odds<br>%", 100.0}});
     if (!report.suggestions.empty()) {
         const Suggestion& best = report.suggestions.front();
         html += fmt::format(
