@@ -23,22 +23,31 @@ constexpr double rim_place = 0.02;
 
 FitReport FitRun::run() {
     const auto began = Clock::now();
+    tell_stage("bringing the photographs to the fit's scale");
     prepare();
+    tell_stage("tracing the ghosts");
     build();
     look_at_start();
     share_ = 0.2;
+    tell_stage("first guesses of the coatings");
     solve_coatings();
     if (!request_.kinds.empty() && choose_kinds()) {
         expect_errors();
         solve_coatings();
     }
     share_ = 0.4;
+    tell_stage("place of the picture");
     settle(first_linearisations);
     share_ = 0.6;
+    tell_stage("looking for other minima");
     const bool elsewhere = explore_coatings();
     share_ = 0.8;
     if (elsewhere) settle(first_linearisations);
-    if (!layout_.geometry.empty()) settle(most_linearisations);
+    if (!layout_.geometry.empty()) {
+        tell_stage("geometry");
+        settle(most_linearisations);
+    }
+    tell_stage("errors and report");
     FitReport report = finish();
     report.basis_ms = basis_ms_;
     report.seconds = 1e-3 * ms_since(began);
@@ -51,6 +60,10 @@ void FitRun::check_stop() const {
 
 void FitRun::tell(double share) const {
     if (progress_) progress_(share, cost_);
+}
+
+void FitRun::tell_stage(const char* words) const {
+    if (request_.stage) request_.stage(words);
 }
 
 void FitRun::show_look() const {

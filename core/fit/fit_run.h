@@ -38,6 +38,7 @@ class FitRun {
    private:
     void check_stop() const;
     void tell(double share) const;
+    void tell_stage(const char* words) const;
     /// Shows the iteration that is done, where somebody looks.
     void show_look() const;
     void prepare();

@@ -51,7 +51,13 @@ void FitRun::look_at_start() {
             if (!keep[views_[i].bases[g].ghost]) {
                 left_out2 += found[i][g] * found[i][g];
                 ++report_.ghosts_left_out;
+                report_.left_out.push_back(
+                    {.name = ghostlight::name(scene_->ghosts[views_[i].bases[g].ghost],
+                                              listed_.lens.surfaces.size()),
+                     .photo = i,
+                     .at_most = brighter_at_most * found[i][g]});
             }
+    std::ranges::stable_sort(report_.left_out, std::ranges::greater{}, &LeftOutGhost::at_most);
     report_.left_out_signal_to_noise = std::sqrt(left_out2);
     for (FitView& view : views_)
         std::erase_if(view.bases, [&](const GhostBasis& basis) { return !keep[basis.ghost]; });

@@ -63,6 +63,8 @@ struct FitRequest {
     unsigned threads = 0;
     /// Called after every iteration, on the fit's thread; may wait, which pauses the fit.
     std::function<void(const FitLook&)> look = {};
+    /// Told which part of the work begins, in words, on the fit's thread.
+    std::function<void(const std::string&)> stage = {};
 };
 
 /// How well a number is known.
@@ -125,6 +127,15 @@ struct FittedGhost {
     std::string merged_with;  ///< a ghost whose picture it cannot be told from (overlap > 0.98)
 };
 
+/// A ghost that is not carried along, being below the noise.
+struct LeftOutGhost {
+    std::string name;
+    std::size_t photo = 0;
+    /// Its signal to noise is not above this, even where its coatings are six times as bright as at
+    /// the start.
+    double at_most = 0.0;
+};
+
 /// R of a coated surface that was varied, light from the air's side, normal incidence.
 struct ReflectanceBand {
     std::size_t row = 0;
@@ -163,6 +174,7 @@ struct FitReport {
     std::vector<FittedGhost> ghosts;         ///< visible ones, strongest first
     std::size_t ghosts_left_out = 0;
     double left_out_signal_to_noise = 0.0;  ///< of all of those together, at the start
+    std::vector<LeftOutGhost> left_out;     ///< those, strongest first
     std::vector<ReflectanceBand> bands;
     std::vector<FittedPhoto> photos;
     std::vector<double> histogram;  ///< of residuals in σ: shares of bins of 0.5 from −5 to 5

@@ -45,8 +45,14 @@ std::unique_ptr<OIIO::ImageInput> opened(const std::filesystem::path& file, bool
         config.attribute("raw:auto_bright", 0);
         config.attribute("raw:use_camera_wb", 0);
         config.attribute("raw:use_camera_matrix", 0);
+        // The camera's own balance: scaled channels would clip at levels of their own.
+        constexpr std::array unscaled = {1.0F, 1.0F, 1.0F, 1.0F};
+        config.attribute("raw:user_mul", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 4), unscaled.data());
+        // White stays the file's white level: by the picture's own it would differ between
+        // exposures.
+        config.attribute("raw:adjust_maximum_thr", 0.0F);
         config.attribute("raw:HighlightMode", 1);
-        config.attribute("raw:Exposure", 1.0F);
+        config.attribute("raw:user_flip", 0);  // as the sensor has it
     }
     auto input = OIIO::ImageInput::open(file.string(), &config);
     if (!input) {
@@ -201,7 +207,10 @@ Photo read_photo(const std::filesystem::path& file) {
         if (!linear) photo.noise.read += 1.0 / (255.0 * 255.0 * 12.0) / (12.92 * 12.92);
     }
     const MaskCounts counts = mask_unusable(photo);
-    if (!known_noise) photo.noise = estimated_noise(photo);
+    if (!known_noise) {
+        photo.noise = estimated_noise(photo);
+        mask_hot(photo);
+    }
     if (counts.not_a_number > 0)
         photo.notes.push_back(
             {Note::Severity::warning,
@@ -227,12 +236,14 @@ void mask_by_file(Photo& photo, const std::filesystem::path& file) {
         upright_picture(read_rgb(*input, spec, file), spec.width, spec.height, 3);
     for (int y = 0; y < photo.height_px; ++y)
         for (int x = 0; x < photo.width_px; ++x) {
-            const int column = x * spec.width / photo.width_px;
-            const int row = y * spec.height / photo.height_px;
-            if (mask[3 * static_cast<std::size_t>(row * spec.width + column)] > 0.5F)
+            const int column = static_cast<int>(std::int64_t{x} * spec.width / photo.width_px);
+            const int row = static_cast<int>(std::int64_t{y} * spec.height / photo.height_px);
+            char& masked =
                 photo
                     .masked[static_cast<std::size_t>(y) * static_cast<std::size_t>(photo.width_px) +
-                            static_cast<std::size_t>(x)] = 1;
+                            static_cast<std::size_t>(x)];
+            if (!masked && mask[3 * static_cast<std::size_t>(row * spec.width + column)] > 0.5F)
+                masked = mask_reason::painted;
         }
 }
 

@@ -26,7 +26,9 @@ QString bound_text(const PlanReport& plan, const Omission& each) {
     if (*each.bound_mm2 == 0.0) {
         return QStringLiteral("nothing");
     }
-    return plan.flux_mm2 > 0.0 ? percent(*each.bound_mm2 / plan.flux_mm2) : QString();
+    return plan.flux_mm2 > 0.0 ? (each.proven ? QStringLiteral("≤ ") : QStringLiteral("≈ ")) +
+                                     percent(*each.bound_mm2 / plan.flux_mm2)
+                               : QString();
 }
 
 }  // namespace
@@ -38,9 +40,10 @@ PlanPage::PlanPage(QWidget* parent)
       measure_(new QPushButton(tr("Measure the true error"))) {
     table_->setObjectName("plan_table");
     table_->setHorizontalHeaderLabels(
-        {tr("Not computed"), tr("Ghosts"), tr("At most"), tr("Known"), tr("Why")});
+        {tr("Not computed"), tr("Ghosts"), tr("Changes"), tr("Known"), tr("Why")});
     table_->horizontalHeaderItem(bound)->setToolTip(
-        tr("What it can change of the picture: L1 over the light on the sensor"));
+        tr("What it can change of the picture: L1 over the light on the sensor. ≤ at most, by a "
+           "proof; ≈ by the plan's own estimate, good to a factor of two"));
     table_->setItemDelegate(new TableDelegate(-1, -1, this));
     for (const int number : {ghosts, bound}) {
         table_->horizontalHeaderItem(number)->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
@@ -119,7 +122,30 @@ void PlanPage::show_error(const MeasuredPlan& error) {
 }
 
 void PlanPage::show_sum() {
-    QString text = tr("All of these: at most %1.").arg(percent(report_->bound()));
+    double proven_mm2 = 0.0, estimated_mm2 = 0.0;
+    int unknown = 0;
+    for (const Omission& each : report_->omissions) {
+        if (each.bound_mm2) {
+            (each.proven ? proven_mm2 : estimated_mm2) += *each.bound_mm2;
+        } else {
+            ++unknown;
+        }
+    }
+    const auto share = [&](double mm2) {
+        return percent(report_->flux_mm2 > 0.0 ? mm2 / report_->flux_mm2 : 0.0);
+    };
+    QString text = tr("All of these: ");
+    if (estimated_mm2 == 0.0) {
+        text += tr("at most %1.").arg(share(proven_mm2));
+    } else {
+        text += proven_mm2 > 0.0 ? tr("at most %1 proven and about %2 estimated")
+                                       .arg(share(proven_mm2), share(estimated_mm2))
+                                 : tr("about %1, estimated").arg(share(estimated_mm2));
+        text += tr(" (good to a factor of two).");
+    }
+    if (unknown > 0) {
+        text += unknown == 1 ? tr(" One has no bound.") : tr(" %1 have no bound.").arg(unknown);
+    }
     if (error_) {
         text += tr(" The true error is %1, by a reference whose two samplings differ by %2.")
                     .arg(percent(error_->error), percent(error_->reference_error));
