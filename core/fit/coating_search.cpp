@@ -38,6 +38,7 @@ FitView thinned(const FitView& view, int by) {
     thin.place = view.place;
     thin.background_unit = view.background_unit;
     thin.log_gain_start = view.log_gain_start;
+    thin.curve_error = view.curve_error;
     thin.data.noise = view.data.noise;
     // The samples are points of the sensor, as before; only their number changes.
     auto count = [by](int all) { return (all + by - 1) / by; };

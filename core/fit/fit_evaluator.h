@@ -24,6 +24,7 @@ struct FitView {
     std::vector<std::vector<double>> slopes;
     double background_unit = 1.0;  ///< a typical level: the unit of background coefficients
     double log_gain_start = 0.0;
+    double curve_error = 0.0;  ///< of the photograph, see Photo::curve_error
 };
 
 /// Layout of the vector of unknowns, all in units of their priors about their starts: coatings,

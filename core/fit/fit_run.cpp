@@ -104,6 +104,14 @@ void FitRun::prepare() {
         view.data = fit_data(each.photo, each.place, listed_.lens.sensor.width_mm,
                              listed_.lens.sensor.height_mm, request_.across);
         view.light = each.light;
+        view.curve_error = each.photo.curve_error;
+        if (view.curve_error > 0.0)
+            report_.remarks.push_back(fmt::format(
+                "{}: the curve that made its values linear is a guess; each sample, and each "
+                "ghost's light as a whole, is taken to be off by {:.2g} % (standard deviation), "
+                "and the errors allow for it.",
+                each.photo.file.empty() ? "The photograph" : each.photo.file,
+                100.0 * view.curve_error));
         std::vector<double> levels;
         for (std::size_t s = 0; s < view.data.samples(); ++s)
             for (std::size_t c = 0; c < 3 && view.data.used[s]; ++c)
@@ -114,8 +122,10 @@ void FitRun::prepare() {
         view.stable.resize(3 * view.data.samples());
         for (std::size_t s = 0; s < view.data.samples(); ++s) {
             const double of_rim = rim_place * relative_contrast(view.data, s, view.background_unit);
-            view.scales.push_back(stable_scale(
-                view.data, s, std::hypot(request_.model_error, of_rim), view.background_unit));
+            view.scales.push_back(
+                stable_scale(view.data, s,
+                             std::hypot(std::hypot(request_.model_error, view.curve_error), of_rim),
+                             view.background_unit));
             for (std::size_t c = 0; c < 3; ++c)
                 view.stable[3 * s + c] = view.scales[s].at(view.data.value[3 * s + c]);
         }

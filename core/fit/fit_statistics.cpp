@@ -60,7 +60,8 @@ FitInformation information(const FitEvaluator& evaluator, FitLoss loss, double l
             correlate(once, width, height, false, twice);
             info.spread.noalias() += j.transpose() * twice;
             // Each ghost's light may be off as a whole.
-            if (ghost_error <= 0.0) continue;
+            const double off = std::hypot(ghost_error, view.curve_error);
+            if (off <= 0.0) continue;
             for (const GhostBasis& basis : view.bases) {
                 if (stop.stop_requested()) return info;
                 std::vector<double> coefficients;
@@ -79,7 +80,7 @@ FitInformation information(const FitEvaluator& evaluator, FitLoss loss, double l
                                               view.scales[s].sigma(evaluator.model(i)[3 * s + c]);
                         moved += change * j.row(static_cast<Eigen::Index>(s)).transpose();
                     }
-                info.spread.noalias() += ghost_error * ghost_error * moved * moved.transpose();
+                info.spread.noalias() += off * off * moved * moved.transpose();
             }
         }
     }
@@ -111,7 +112,8 @@ double scatter_of_difference(const FitEvaluator& evaluator,
                 for (std::size_t c = 0; c < 3 && view.data.used[s]; ++c)
                     along[c] += difference[i][3 * s + c] * evaluator.gain(i, c) * *one.at(s, c) /
                                 view.scales[s].sigma(evaluator.model(i)[3 * s + c]);
-            for (const double each : along) scatter += ghost_error * ghost_error * each * each;
+            const double off = std::hypot(ghost_error, view.curve_error);
+            for (const double each : along) scatter += off * off * each * each;
         }
     }
     return size > 0.0 ? std::max(1.0, scatter / size) : 1.0;
