@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -20,9 +21,9 @@ struct FitOptions {
     LensOptions lens;
     SpectrumOptions spectrum{.wavelength = {}, .spectrum = "D65"};
     PhotoOptions photos;
-    std::string vary, out, page, left_out, only, loss = "cauchy", scale = "4", error = "0.3",
-                                                 across = "96", kinds, kind_rows, background = "3",
-                                                 starts = "6", suggest = "4", seed = "1";
+    std::string vary, out, page, left_out, only,
+        loss = "cauchy", scale = "4", error = "0.3", across = "96", kinds, kind_rows, profile,
+        bootstrap = "0", background = "3", starts = "6", suggest = "4", seed = "1";
     bool fixed_place = false;
     OutputOptions output;
 };
@@ -59,6 +60,18 @@ void run(const FitOptions& options) {
     request.left_out = read_option("--use-ghosts", [&] {
         return ghosts_left_out(options.left_out, options.only, loaded.lens);
     });
+    if (!options.profile.empty())
+        for (const FitParameter& each :
+             read_option("--profile", [&] { return parse_vary(options.profile, loaded.lens); })) {
+            const auto at = std::ranges::find_if(request.vary, [&](const FitParameter& p) {
+                return p.kind == each.kind && p.rows == each.rows && p.layer == each.layer;
+            });
+            if (at == request.vary.end())
+                throw bad_value("--profile", options.profile, "numbers that --vary has");
+            request.profiled.push_back(static_cast<std::size_t>(at - request.vary.begin()));
+        }
+    request.bootstrap = static_cast<int>(
+        integer_value("--bootstrap", options.bootstrap, "a whole number from 0 to 1000", 0, 1000));
     FitSetup setup = photo_setup_of(options.photos);
     const std::vector<FitPhoto> photos = read_fit_photos(setup, loaded.lens, notes, read_photo);
     if (!options.kinds.empty())
@@ -122,6 +135,9 @@ void run(const FitOptions& options) {
                                text += (text.size() > 1 ? ", " : "") + json_value(each);
                            return text + "]";
                        }()},
+                      {"loss", json_string(name(report.loss))},
+                      {"loss_scale", json_value(report.loss_scale)},
+                      {"intervals", table_json(fit_interval_table(report))},
                       {"kinds", table_json(fit_kind_table(report))},
                       {"ghosts", table_json(fit_ghost_table(report))}};
     answer.heading = fmt::format("{}\n{}", lens_heading(loaded), report.verdict);
@@ -164,6 +180,11 @@ void add_fit(CLI::App& program) {
              "surfaces first: none, qw:NM[:INDEX] or names of the coating library");
     add_text(*command, "--kind-rows", options->kind_rows, "ROWS",
              "surfaces whose kind is chosen: 1,3,6; default: those whose coating is varied");
+    add_text(*command, "--profile", options->profile, "SPEC",
+             "profile likelihood of these numbers of --vary: center@3,center@5");
+    add_text(*command, "--bootstrap", options->bootstrap, "N",
+             "fits to N photographs drawn from the fitted model and its errors")
+        ->capture_default_str();
     command->add_flag("--fixed-place", options->fixed_place,
                       "light, shift and rotation are exact, not fitted");
     add_text(*command, "--loss", options->loss, "NAME", "none, huber, cauchy or tukey")

@@ -237,4 +237,50 @@ StudySection study_wrong_lens(const StudyRequest& request) {
     return section;
 }
 
+StudySection study_kinds(const StudyRequest& request) {
+    StudySection section{.key = "kinds",
+                         .title = "Kinds of coating",
+                         .text = {},
+                         .table = {.columns = {"surface", "truth", "kind", "numbers", "chi2_above",
+                                               "bic_above", "share"},
+                                   .rows = {}},
+                         .pictures = {}};
+    // Two of six surfaces have other kinds than the fit is told.
+    Prescription truth = tessar_with(true_centers_nm);
+    truth.surfaces[0].coating = parse_coating("v-coat");
+    truth.surfaces[5].coating = Uncoated{};
+    const Prescription wrong = tessar_with(first_centers_nm);
+    const SyntheticPhotoRequest camera = study_camera(5.0, request.quick);
+    const std::vector<FitPhoto> photos = {
+        fit_photo(*synthetic_photo(truth, camera), truth, camera.light)};
+    FitRequest fit = usual_fit(wrong, "center@all", request.quick);
+    for (const char* each : {"none", "qw:550", "v-coat", "two-layer-quarter-half"})
+        fit.kinds.push_back({each, parse_coating(each)});
+    const FitReport report = *fit_flare(wrong, photos, fit);
+    std::size_t right = 0;
+    for (const SurfaceKinds& surface : report.kinds) {
+        const std::string expected = surface.row == 0   ? "v-coat"
+                                     : surface.row == 5 ? "none"
+                                                        : "qw:550";
+        right += surface.tried.front().name == expected;
+        for (const KindTried& each : surface.tried)
+            section.table.rows.push_back({static_cast<std::int64_t>(surface.row + 1), expected,
+                                          each.name, static_cast<std::int64_t>(each.numbers),
+                                          each.chi2_above, each.bic_above, each.share});
+        section.text += fmt::format(
+            "- surface {} (truth: {}): {}, {:.3g} % of the odds; next {}, "
+            "BIC {:.3g} higher\n",
+            surface.row + 1, expected, surface.tried.front().name,
+            100.0 * surface.tried.front().share, surface.tried[1].name, surface.tried[1].bic_above);
+    }
+    section.text = fmt::format(
+                       "A Tessar with a V-coat on surface 1 and none on surface 6; the fit is told "
+                       "quarter waves "
+                       "everywhere and chooses from four kinds. {} of {} are right. \"{}\"\n\n",
+                       right, report.kinds.size(), report.verdict) +
+                   section.text;
+    section.pictures.push_back(write_pages(report, truth.name, request.folder, "kinds"));
+    return section;
+}
+
 }  // namespace ghostlight::cli

@@ -17,8 +17,11 @@ struct Watch final : ceres::IterationCallback {
 }  // namespace
 
 Descent descend(FitEvaluator& evaluator, FitLoss loss, double loss_scale, int iterations,
-                const std::function<bool(double)>& go_on) {
+                const std::function<bool(double)>& go_on, int held) {
     const auto problem = fit_problem(evaluator, loss, loss_scale);
+    if (held >= 0)
+        problem->SetManifold(evaluator.x.data(), new ceres::SubsetManifold(
+                                                     static_cast<int>(evaluator.x.size()), {held}));
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     options.max_num_iterations = iterations;

@@ -143,6 +143,8 @@ FitReport FitRun::finish() {
         worked ? covariance_of(info, Eigen::MatrixXd(inverse)) : covariance_of(info);
 
     FitReport& report = report_;
+    report.loss = request_.loss;
+    report.loss_scale = request_.loss_scale;
     report.cost_after = cost_now();
     evaluator_->PrepareForEvaluation(true, true);
     report.explained_after = explained();
@@ -188,6 +190,8 @@ FitReport FitRun::finish() {
     report.lens = fitted;
     fill_bands(outcome, given_, listed_.lens, fitted.lens, report);
     judge(outcome, report);
+    profile(report);
+    bootstrap(report);
     suggest(known);
     return std::move(report);
 }

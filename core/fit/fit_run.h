@@ -100,6 +100,10 @@ class FitRun {
     /// Gains of the strongest ghosts against their pictures, by non-negative least squares.
     Unmixed unmixed(std::size_t photo);
     FitReport finish();
+    /// The cost against one number, all others fitted (fit_profile.cpp).
+    void profile(FitReport& report);
+    /// The fit again on photographs drawn from its own model and errors.
+    void bootstrap(FitReport& report);
     /// Which light would narrow the worst known number most: its Jacobian, from the model, with the
     /// noise of the first photograph at a tenth of its brightest level.
     void suggest(const Eigen::MatrixXd& known);

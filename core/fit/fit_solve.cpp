@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <optional>
 #include <random>
 
 #include "core/elapsed.h"
@@ -18,6 +20,9 @@ constexpr double settled = 0.02;
 /// Of a prior, to either side: numbers that a lens is compiled into are smooth, and this keeps what
 /// is left out (its square) and what rounding leaves below 1e-6.
 constexpr double move_step = 1e-3;
+/// By which the cost may rise from one linearisation to the next: other points, other rounding.
+constexpr double most_worse = 2.0;
+constexpr int most_halvings = 4;
 /// First guesses for all λ0 together, nm.
 constexpr std::array<double, 5> alike_nm = {550.0, 490.0, 620.0, 440.0, 690.0};
 constexpr int start_iterations = 10, final_iterations = 30, jump_iterations = 8;
@@ -208,6 +213,8 @@ bool FitRun::explore_coatings() {
 
 void FitRun::settle(int most_linearisations) {
     if (layout_.geometry.empty() && !layout_.place) return;
+    std::optional<FitMinimum> best;
+    int halvings = 0;
     for (int turn = 0; turn < most_linearisations; ++turn) {
         double moved = 0.0;
         for (std::size_t k = layout_.coatings.size(); k < layout_.count(); ++k)
@@ -215,9 +222,22 @@ void FitRun::settle(int most_linearisations) {
                 moved = std::max(moved, std::abs(evaluator_->x[k] - evaluator_->linearised_at[k]));
         build();
         evaluator_->linearised_at = evaluator_->x;
+        // What a straight model promises may not be so: half of the way, while it is not.
+        const double cost = cost_now();
+        check_stop();
+        if (best && cost > best->cost + most_worse && halvings < most_halvings) {
+            ++halvings;
+            --turn;
+            for (std::size_t k = 0; k < evaluator_->x.size(); ++k)
+                evaluator_->x[k] = std::midpoint(evaluator_->x[k], best->x[k]);
+            continue;
+        }
+        halvings = 0;
+        cost_ = cost;
+        best = standing();
         if (turn > 0 && moved < settled) {
             solve(final_iterations);
-            break;
+            return;
         }
         linearise();
         solve(final_iterations);

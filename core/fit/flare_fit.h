@@ -58,7 +58,10 @@ struct FitRequest {
     /// To choose from on each surface, the strongest first; empty: kinds stay as they are listed.
     std::vector<CoatingKind> kinds = {};
     std::vector<std::size_t> kind_rows = {};  ///< where, from 0; empty: where coatings are varied
-    std::size_t suggestions = 0;              ///< light angles tried for the next photograph
+    /// Numbers of `vary` whose profile likelihood is wanted.
+    std::vector<std::size_t> profiled = {};
+    int bootstrap = 0;            ///< photographs drawn from the fitted model, 0: none
+    std::size_t suggestions = 0;  ///< light angles tried for the next photograph
     std::uint64_t seed = 1;
     unsigned threads = 0;
     /// Called after every iteration, on the fit's thread; may wait, which pauses the fit.
@@ -87,6 +90,20 @@ struct FittedNumber {
     /// In other minima of the cost that explain the photographs nearly as well; the error allows
     /// for them, and the interval reaches to those whose share is more than 2.5 %.
     std::vector<double> other_values = {};
+};
+
+/// χ² against one number with all others fitted to it: intervals that need not be symmetric.
+struct FittedProfile {
+    std::size_t number = 0;
+    std::vector<double> values, chi2;  ///< above the fit's own, rising values
+    double low = 0.0, high = 0.0;      ///< where it is 3.84: 95 %; where looking ended, if before
+};
+
+/// A number in fits to photographs that were drawn from the fitted model and its errors.
+struct BootstrappedNumber {
+    std::size_t number = 0;
+    double mean = 0.0, scatter = 0.0;
+    double low = 0.0, high = 0.0;  ///< the middle 95 % of the draws
 };
 
 /// Another minimum of the cost that the photographs do not exclude.
@@ -165,6 +182,10 @@ struct Suggestion {
 
 struct FitReport {
     std::vector<FittedNumber> numbers;
+    std::vector<FittedProfile> profiles;        ///< those asked for
+    std::vector<BootstrappedNumber> bootstrap;  ///< empty where none was asked for
+    FitLoss loss = FitLoss::cauchy;             ///< and its scale, standard deviations of a sample
+    double loss_scale = 4.0;
     std::vector<double> correlation;  ///< numbers × numbers, of those not held
     std::vector<double> covariance;
     std::vector<UnknownDirection> unknown;
