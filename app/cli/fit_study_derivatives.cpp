@@ -8,7 +8,6 @@
 #include <map>
 
 #include "app/cli/fit_study_cases.h"
-#include "core/fit/fit_evaluator.h"
 #include "core/fit/ghost_weights.h"
 #include "core/fit/photo_model.h"
 #include "core/fit/picture_slopes.h"
@@ -20,6 +19,7 @@ namespace {
 
 constexpr int across = 48, spectral_samples = 7;
 constexpr std::size_t most_ghosts = 12;
+constexpr double field_prior_deg = 0.03;  ///< of a light, as the fit has it
 const Spectrum daylight = StandardLight{};
 
 /// Some ghosts of a lens, spread over the list.

@@ -7,8 +7,7 @@
 #include <cmath>
 
 #include "core/fit/fit_data.h"
-#include "core/flare/ghost_mesh.h"
-#include "core/ghosts/cells.h"
+#include "core/fit/ghost_pieces.h"
 #include "core/ghosts/clip_shares.h"
 
 // How the cells of a traced grid become points, small against a sample, that a smooth footprint
@@ -28,13 +27,6 @@ double number(const ceres::Jet<T, N>& x) {
 inline constexpr double point_spacing = 0.45;
 /// Beyond the frame's edge a footprint still reaches in, samples.
 inline constexpr double beyond_edge = spline_reach + 0.5;
-
-/// A small part of a bundle that passes: its middle on the sensor and in the pupil, and its area
-/// across the beam.
-template <class S>
-struct PieceOf {
-    S x_mm, y_mm, u, v, area_mm2;
-};
 
 template <class S>
 struct BundlePolygon {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/fit/bundle_polygon.h"
 #include "core/ghosts/pupil.h"
 
 namespace ghostlight {

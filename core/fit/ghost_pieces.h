@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/fit/bundle_polygon.h"
 #include "core/fit/fit_scene.h"
+#include "core/flare/ghost_mesh.h"
 #include "core/ghosts/weighted_grid.h"
 
 namespace ghostlight {
@@ -22,6 +22,13 @@ struct GhostGrid {
     std::vector<double> ray_areas;
     std::size_t traced = 0;  ///< rays, in finding this
     bool empty() const { return cells == 0; }
+};
+
+/// A small part of a bundle that passes: its middle on the sensor and in the pupil, and its area
+/// across the beam.
+template <class S>
+struct PieceOf {
+    S x_mm, y_mm, u, v, area_mm2;
 };
 
 using BundlePiece = PieceOf<double>;

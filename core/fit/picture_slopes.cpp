@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fit/bundle_polygon.h"
 #include "core/fit/sloped_trace.h"
 #include "core/parallel.h"
 
