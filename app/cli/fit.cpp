@@ -20,9 +20,9 @@ struct FitOptions {
     LensOptions lens;
     SpectrumOptions spectrum{.wavelength = {}, .spectrum = "D65"};
     PhotoOptions photos;
-    std::string vary, out, page, left_out, only, loss = "cauchy", scale = "4", error = "0.3",
-                                                 across = "96", background = "3", starts = "6",
-                                                 suggest = "4", seed = "1";
+    std::string vary, out, page, left_out, only,
+        loss = "cauchy", scale = "4", error = "0.3", across = "96", kinds, kind_rows, profile,
+        bootstrap = "0", background = "3", starts = "6", suggest = "4", seed = "1";
     bool fixed_place = false;
     OutputOptions output;
 };
@@ -59,8 +59,23 @@ void run(const FitOptions& options) {
     request.left_out = read_option("--use-ghosts", [&] {
         return ghosts_left_out(options.left_out, options.only, loaded.lens);
     });
+    request.profiled = read_option(
+        "--profile", [&] { return profiled_in(options.profile, request.vary, loaded.lens); });
+    request.bootstrap = static_cast<int>(
+        integer_value("--bootstrap", options.bootstrap, "a whole number from 0 to 1000", 0, 1000));
     FitSetup setup = photo_setup_of(options.photos);
     const std::vector<FitPhoto> photos = read_fit_photos(setup, loaded.lens, notes, read_photo);
+    if (!options.kinds.empty())
+        for (const auto part : split(options.kinds, ','))
+            request.kinds.push_back(
+                {std::string(part), read_option("--kinds", [&] { return parse_coating(part); })});
+    if (!options.kind_rows.empty())
+        for (const auto part : split(options.kind_rows, ','))
+            request.kind_rows.push_back(static_cast<std::size_t>(
+                integer_value("--kind-rows", std::string(part),
+                              fmt::format("surfaces 1 to {}", loaded.lens.surfaces.size()), 1,
+                              static_cast<std::int64_t>(loaded.lens.surfaces.size())) -
+                1));
 
     ProgressLine progress("fitting");
     const FitReport report = *fit_flare(loaded.lens, photos, request, {},
@@ -69,6 +84,8 @@ void run(const FitOptions& options) {
     setup.spectrum = name(request.spectrum);
     setup.left_out = options.left_out;
     setup.only = options.only;
+    setup.profiled = options.profile;
+    setup.bootstrap = request.bootstrap;
     setup.loss = request.loss;
     setup.loss_scale = request.loss_scale;
     setup.seed = request.seed;
@@ -111,6 +128,10 @@ void run(const FitOptions& options) {
                                text += (text.size() > 1 ? ", " : "") + json_value(each);
                            return text + "]";
                        }()},
+                      {"loss", json_string(name(report.loss))},
+                      {"loss_scale", json_value(report.loss_scale)},
+                      {"intervals", table_json(fit_interval_table(report))},
+                      {"kinds", table_json(fit_kind_table(report))},
                       {"ghosts", table_json(fit_ghost_table(report))}};
     answer.heading = fmt::format("{}\n{}", lens_heading(loaded), report.verdict);
     for (const std::string& remark : report.remarks) answer.heading += "\n" + remark;
@@ -147,6 +168,16 @@ void add_fit(CLI::App& program) {
     add_text(*command, "--leave-out", options->left_out, "GHOSTS",
              "ghosts that do not count: 5-3,7-2");
     add_text(*command, "--use-ghosts", options->only, "GHOSTS", "the only ones that count");
+    add_text(*command, "--kinds", options->kinds, "LIST",
+             "choose each surface's kind of coating from these and the listed one, strongest\n"
+             "surfaces first: none, qw:NM[:INDEX] or names of the coating library");
+    add_text(*command, "--kind-rows", options->kind_rows, "ROWS",
+             "surfaces whose kind is chosen: 1,3,6; default: those whose coating is varied");
+    add_text(*command, "--profile", options->profile, "SPEC",
+             "profile likelihood of these numbers of --vary: center@3,center@5");
+    add_text(*command, "--bootstrap", options->bootstrap, "N",
+             "fits to N photographs drawn from the fitted model and its errors")
+        ->capture_default_str();
     command->add_flag("--fixed-place", options->fixed_place,
                       "light, shift and rotation are exact, not fitted");
     add_text(*command, "--loss", options->loss, "NAME", "none, huber, cauchy or tukey")

@@ -32,6 +32,12 @@ std::string name(FitLoss loss);
 
 struct FitLook;
 
+/// A kind of coating that a surface may have: its λ0 (or thickness, or reflectance) is fitted.
+struct CoatingKind {
+    std::string name;
+    Coating coating;
+};
+
 struct FitRequest {
     Spectrum spectrum = StandardLight{};
     std::vector<FitParameter> vary;
@@ -49,7 +55,13 @@ struct FitRequest {
     bool fit_shading = true;
     int starts = 6;                     ///< first guesses of the coatings, the lens's own first
     std::vector<std::string> left_out;  ///< ghosts by name that do not count
-    std::size_t suggestions = 0;        ///< light angles tried for the next photograph
+    /// To choose from on each surface, the strongest first; empty: kinds stay as they are listed.
+    std::vector<CoatingKind> kinds = {};
+    std::vector<std::size_t> kind_rows = {};  ///< where, from 0; empty: where coatings are varied
+    /// Numbers of `vary` whose profile likelihood is wanted.
+    std::vector<std::size_t> profiled = {};
+    int bootstrap = 0;            ///< photographs drawn from the fitted model, 0: none
+    std::size_t suggestions = 0;  ///< light angles tried for the next photograph
     std::uint64_t seed = 1;
     unsigned threads = 0;
     /// Called after every iteration, on the fit's thread; may wait, which pauses the fit.
@@ -80,6 +92,20 @@ struct FittedNumber {
     std::vector<double> other_values = {};
 };
 
+/// χ² against one number with all others fitted to it: intervals that need not be symmetric.
+struct FittedProfile {
+    std::size_t number = 0;
+    std::vector<double> values, chi2;  ///< above the fit's own, rising values
+    double low = 0.0, high = 0.0;      ///< where it is 3.84: 95 %; where looking ended, if before
+};
+
+/// A number in fits to photographs that were drawn from the fitted model and its errors.
+struct BootstrappedNumber {
+    std::size_t number = 0;
+    double mean = 0.0, scatter = 0.0;
+    double low = 0.0, high = 0.0;  ///< the middle 95 % of the draws
+};
+
 /// Another minimum of the cost that the photographs do not exclude.
 struct OtherMinimum {
     double chi2_above = 0.0;  ///< by which its χ² is higher, of independent samples
@@ -90,6 +116,20 @@ struct OtherMinimum {
 struct UnknownDirection {
     double narrowed = 1.0;                              ///< its standard error over its prior's
     std::vector<std::pair<std::size_t, double>> parts;  ///< number, share; largest first
+};
+
+/// One kind of coating on one surface, everything else fitted with it.
+struct KindTried {
+    std::string name;
+    std::size_t numbers = 0;  ///< of the coating that are fitted
+    double chi2_above = 0.0;  ///< by which χ² is higher than of the kind with the lowest
+    double bic_above = 0.0;   ///< χ² + numbers × ln(values) over that of the best (Schwarz 1978)
+    double share = 0.0;       ///< of the odds: exp(−BIC/2) over the sum of all
+};
+struct SurfaceKinds {
+    std::size_t row = 0;
+    double signal_to_noise = 0.0;  ///< of the ghosts that turn there
+    std::vector<KindTried> tried;  ///< the best first
 };
 
 /// What one ghost does in the fit.
@@ -142,11 +182,16 @@ struct Suggestion {
 
 struct FitReport {
     std::vector<FittedNumber> numbers;
+    std::vector<FittedProfile> profiles;        ///< those asked for
+    std::vector<BootstrappedNumber> bootstrap;  ///< empty where none was asked for
+    FitLoss loss = FitLoss::cauchy;             ///< and its scale, standard deviations of a sample
+    double loss_scale = 4.0;
     std::vector<double> correlation;  ///< numbers × numbers, of those not held
     std::vector<double> covariance;
     std::vector<UnknownDirection> unknown;
     std::vector<OtherMinimum> other_minima;  ///< the likeliest first
     std::size_t rank = 0;                    ///< directions that the photographs determine
+    std::vector<SurfaceKinds> kinds;         ///< where kinds were chosen, the strongest first
     std::vector<FittedGhost> ghosts;         ///< visible ones, strongest first
     std::size_t ghosts_left_out = 0;
     double left_out_signal_to_noise = 0.0;  ///< of all of those together, at the start

@@ -238,10 +238,10 @@ LightSpot find_light(const Photo& photo) {
     const bool clipped = static_cast<double>(highest) >= photo.saturation;
     const double limit = clipped ? photo.saturation : 0.5 * static_cast<double>(highest);
     if (!(limit > 3.0 * mean) && !clipped)
-        fail(
-            photo, "no light stands out in the photograph",
-            fmt::format("brightest value {:.3g}, mean {:.3g}", highest, mean),
-            "a light in the frame, or its place given as --light X,Y or --light deg:FIELD:AZIMUTH");
+        fail(photo, "no light stands out in the photograph",
+             fmt::format("brightest value {:.3g}, mean {:.3g}", highest, mean),
+             "a light in the frame, or its place given in place of auto: X,Y in pixels, or "
+             "deg:FIELD:AZIMUTH where it is outside");
     std::vector<char> seen(photo.pixels(), 0);
     LightSpot best;
     const auto w = static_cast<std::size_t>(photo.width_px);

@@ -30,6 +30,9 @@ struct Photo {
     std::vector<char> masked;  ///< 1 a pixel: 0, or a mask_reason
     double saturation = 1.0;   ///< values from here on are clipped; infinite where nothing is
     PhotoNoise noise;
+    /// Relative: how far values may be off because the curve that made them linear is a guess. 0
+    /// where the camera wrote linear values.
+    double curve_error = 0.0;
     std::optional<double> exposure_s, f_number, focal_length_mm;
     std::string camera, taken;
     std::string file;

@@ -84,9 +84,9 @@ void check_shape(const Photo& photo, const Prescription& lens) {
          .expected = fmt::format(
              "{:.4g} : {:.4g} as the sensor of {:.4g} x {:.4g} mm; {}", lens.sensor.width_mm,
              lens.sensor.height_mm, lens.sensor.width_mm, lens.sensor.height_mm,
-             turned
-                 ? "turn the picture, or give --sensor HxW"
-                 : "give --sensor WxH of the camera, or --photo-width MM of a cropped picture")});
+             turned ? "turn the picture, or swap the sensor's width and height (--sensor HxW)"
+                    : "the camera's sensor size (--sensor WxH), or a cropped picture's own width "
+                      "(--photo-width MM)")});
 }
 
 LightDirection light_at(const OpticalSystem& system, const FitPhoto& photo, double column,

@@ -18,6 +18,11 @@
 namespace ghostlight {
 namespace {
 
+/// Of linear values taken back through the sRGB curve where the camera's own is not known: cameras
+/// differ from it by several times this in contrast, most of which exposure and balance take up;
+/// what is left is some percents between levels a factor of ten apart.
+constexpr double guessed_curve_error = 0.03;
+
 constexpr std::array raw_extensions = {".dng", ".cr2", ".cr3", ".crw", ".nef", ".nrw", ".arw",
                                        ".raf", ".rw2", ".orf", ".pef", ".srw", ".rwl", ".3fr",
                                        ".iiq", ".erf", ".mef", ".mos", ".x3f"};
@@ -154,6 +159,7 @@ Photo read_photo(const std::filesystem::path& file) {
     const bool linear =
         raw || !integer || (known_noise && (extension == ".tif" || extension == ".tiff"));
     if (!linear) {
+        photo.curve_error = guessed_curve_error;
         std::ranges::transform(photo.rgb, photo.rgb.begin(),
                                [](float value) { return srgb_decoded(value); });
         photo.notes.push_back(

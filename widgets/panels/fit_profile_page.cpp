@@ -72,8 +72,7 @@ void FitProfilePage::show_number(int index) {
     const auto from_to = [&](double low, double high) {
         return tr("%1 to %2 %3").arg(significant(low, 4), significant(high, 4), unit_text);
     };
-    QStringList sentences{
-        tr("By its standard error: %1.").arg(from_to(number.low, number.high))};
+    QStringList sentences{tr("By its standard error: %1.").arg(from_to(number.low, number.high))};
     plot_->set_curves({});
     if (const FittedProfile* profile = of_number(report_->profiles, at);
         profile != nullptr && !profile->values.empty()) {

@@ -10,6 +10,7 @@
 #include "widgets/number_text.h"
 #include "widgets/palette.h"
 #include "widgets/panels/correlation_view.h"
+#include "widgets/panels/fit_profile_page.h"
 #include "widgets/panels/line_plot.h"
 
 namespace ghostlight {
@@ -70,6 +71,15 @@ QString html_of(const FitReport& report) {
     say(FitResults::tr("Held, as no visible ghost feels them:"),
         list_of(report, FitKnowledge::not_felt));
     say(FitResults::tr("At a bound:"), list_of(report, FitKnowledge::at_bound));
+    for (const SurfaceKinds& surface : report.kinds) {
+        QStringList tried;
+        for (const KindTried& each : surface.tried) {
+            tried << FitResults::tr("%1 (%2 %)")
+                         .arg(escaped(each.name), significant(100.0 * each.share, 2));
+        }
+        say(FitResults::tr("Kinds of coating on surface %1, by their odds:").arg(surface.row + 1),
+            tried.join(QStringLiteral(", ")));
+    }
     if (!report.unknown.empty()) {
         html += FitResults::tr(
                     "<p><span style=\"color:%1\">Combinations that the photographs do "
@@ -112,7 +122,8 @@ FitResults::FitResults(QWidget* parent)
       words_(new QTextBrowser),
       correlations_(new CorrelationView),
       surfaces_(new QComboBox),
-      band_(new LinePlot) {
+      band_(new LinePlot),
+      profiles_(new FitProfilePage) {
     setObjectName("fit_results");
     setDocumentMode(true);
     costs_->set_axes(tr("iteration"), tr("cost"), true);
@@ -130,6 +141,8 @@ FitResults::FitResults(QWidget* parent)
     addTab(words_, tr("Verdict"));
     addTab(reflectances, tr("Reflectances"));
     addTab(correlations_, tr("Correlations"));
+    addTab(profiles_, tr("Profiles"));
+    setTabToolTip(indexOf(profiles_), tr("Intervals by profile likelihood and bootstrap"));
     connect(surfaces_, &QComboBox::currentIndexChanged, this, &FitResults::show_band);
     clear();
 }
@@ -138,6 +151,7 @@ void FitResults::clear() {
     costs_->set_curves({});
     words_->clear();
     correlations_->set_correlations({}, {});
+    profiles_->clear();
     bands_.clear();
     surfaces_->clear();
     surfaces_->hide();
@@ -167,6 +181,7 @@ void FitResults::show_report(const FitReport& report) {
         }
     }
     correlations_->set_correlations(std::move(names), report.correlation);
+    profiles_->show_report(report);
     bands_ = report.bands;
     surfaces_->clear();
     for (const ReflectanceBand& band : bands_) {
