@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <QComboBox>
 #include <QLineEdit>
+#include <QSpinBox>
+#include <QTableView>
 #include <QTemporaryDir>
 #include <QTest>
 
@@ -19,7 +22,9 @@
 #include "core/units.h"
 #include "tests/widgets/fit_kit.h"
 #include "widgets/document.h"
+#include "widgets/panels/fit_profile_page.h"
 #include "widgets/panels/fit_results.h"
+#include "widgets/panels/fit_variables.h"
 #include "widgets/panels/line_plot.h"
 
 namespace ghostlight {
@@ -272,6 +277,39 @@ TEST_F(FitPanelTest, CancelledFitKeepsItsBestIteration) {
     EXPECT_NE(center_nm(), wrong_nm);
     document_.history().undo();
     EXPECT_EQ(center_nm(), wrong_nm);
+}
+
+TEST_F(FitPanelTest, IntervalsAreProfiledAndDrawnOnRequest) {
+    open_wrong();
+    panel_.add_photographs({photograph()});
+    type_spec("center@1");
+    make_quick();
+    ASSERT_TRUE(settle());
+    EXPECT_FALSE(panel_.button("profile").isEnabled());
+    panel_.table().selectRow(0);
+    click("profile");
+    EXPECT_EQ(fit_setup_from_json(document_.fit()).profiled,
+              fit_setup_from_json(document_.fit()).vary);
+    EXPECT_EQ(panel_.model().index(0, FitParameterModel::interval).data().toString(), "profile");
+    panel_.variables().bootstrap().setValue(4);
+    EXPECT_EQ(fit_setup_from_json(document_.fit()).bootstrap, 4);
+    ASSERT_TRUE(settle());
+    click("start");
+    ASSERT_TRUE(settle());
+    ASSERT_TRUE(panel_.report()) << panel_.reason().toStdString();
+    ASSERT_EQ(panel_.report()->profiles.size(), 1U);
+    EXPECT_TRUE(
+        panel_.model().index(0, FitParameterModel::interval).data().toString().endsWith(" P"));
+    FitProfilePage& page = panel_.results().profiles();
+    EXPECT_EQ(page.numbers().count(), 1);
+    EXPECT_EQ(page.plot().curves().size(), 3U);
+    EXPECT_TRUE(page.words().contains("profile") && page.words().contains("bootstrap"))
+        << page.words().toStdString();
+    panel_.table().selectRow(0);
+    click("profile");
+    EXPECT_EQ(fit_setup_from_json(document_.fit()).profiled, "");
+    document_.history().undo();
+    EXPECT_NE(fit_setup_from_json(document_.fit()).profiled, "");
 }
 
 }  // namespace
