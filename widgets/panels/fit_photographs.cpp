@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/io/photo_file.h"
 #include "widgets/fit_pictures.h"
 #include "widgets/number_text.h"
 #include "widgets/panels/fit_photo_form.h"
@@ -23,9 +24,11 @@ namespace ghostlight {
 namespace {
 
 QString photo_filter() {
-    return FitPhotographs::tr(
-        "Photographs (*.exr *.tif *.tiff *.png *.jpg *.jpeg *.cr2 *.cr3 *.nef *.arw *.raf *.rw2 "
-        "*.orf *.dng *.pef);;All files (*)");
+    QStringList patterns{"*.exr", "*.tif", "*.tiff", "*.png", "*.jpg", "*.jpeg"};
+    for (const std::string_view each : raw_photo_extensions()) {
+        patterns << '*' + QString::fromUtf8(each.data(), static_cast<qsizetype>(each.size()));
+    }
+    return FitPhotographs::tr("Photographs (%1);;All files (*)").arg(patterns.join(' '));
 }
 
 QToolButton* named(const char* name, const QString& text, const QString& tip,

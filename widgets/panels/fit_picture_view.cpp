@@ -216,7 +216,7 @@ std::optional<std::size_t> FitPictureView::region_at(const QPointF& screen) cons
 }
 
 void FitPictureView::paint_regions(QPainter& painter) const {
-    const Palette& colors = current_palette();
+    const Palette colors = dark_palette();  // pictures are dark in either theme
     const QTransform map = file_to_screen();
     painter.setRenderHint(QPainter::Antialiasing);
     QColor fill = colors.amber;
@@ -252,7 +252,7 @@ void FitPictureView::paint_light(QPainter& painter) const {
     const QSize file = photograph_.size_px;
     const QPointF center = on_screen({light_->x() * file.width(), light_->y() * file.height()});
     painter.setRenderHint(QPainter::Antialiasing);
-    painter.setPen(QPen(current_palette().teal, 1.5));
+    painter.setPen(QPen(dark_palette().teal, 1.5));
     painter.drawEllipse(center, light_radius_px, light_radius_px);
     painter.drawLine(center - QPointF(light_radius_px + 5, 0), center - QPointF(4, 0));
     painter.drawLine(center + QPointF(4, 0), center + QPointF(light_radius_px + 5, 0));
