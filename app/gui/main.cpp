@@ -23,6 +23,7 @@
 #include "widgets/settings.h"
 #include "widgets/snapshot.h"
 #include "widgets/theme.h"
+#include "widgets/translation.h"
 
 namespace {
 
@@ -41,6 +42,7 @@ Opens the lens-flare workbench, on a lens file if one is given.
                   ghosts.as_matrix,flare.false_color
   --study NAME    a panel to open and begin: fit (as saved with the lens), accuracy or plan
   --engine NAME   what draws flares, this time: automatic, cpu or opengl
+  --language CODE texts in this language, this time: en or de
   --size WxH      size of the window in pixels, e.g. 1366x768
   --help          this text
   --version       the version
@@ -185,6 +187,7 @@ int main(int argc, char** argv) {
     QGuiApplication::setApplicationDisplayName("Ghostlight");
     QGuiApplication::setDesktopFileName("io.github.ghostlight.Ghostlight");
     QGuiApplication::setWindowIcon(QIcon(":/ghostlight/icon.svg"));
+    const QLocale language = QLocale::system();  // of texts; the machine's settings say which
     // Numbers here have a decimal point, in files and on screen; Qt has just asked the machine.
     QLocale::setDefault(QLocale::c());
     std::setlocale(LC_NUMERIC, "C");
@@ -193,6 +196,7 @@ int main(int argc, char** argv) {
     options.addOptions({{"snapshot", "", "DIR"},
                         {"size", "", "WxH"},
                         {"engine", "", "NAME"},
+                        {"language", "", "CODE"},
                         {"every-panel", ""},
                         {"theme", "", "NAME"},
                         {"do", "", "ACTIONS"},
@@ -202,6 +206,16 @@ int main(int argc, char** argv) {
     if (!options.parse(QCoreApplication::arguments())) {
         return fail(options.errorText().toStdString() + " (see --help)");
     }
+    const QString wanted = options.value("language");
+    if (options.isSet("language") && !ghostlight::languages().contains(wanted)) {
+        return fail("--language: found " + wanted.toStdString() + ", expected one of " +
+                    ghostlight::languages().join(", ").toStdString());
+    }
+    // Pictures for the guide are the same on every machine.
+    ghostlight::install_translation(application, options.isSet("language") ? QLocale(wanted)
+                                                 : options.isSet("snapshot")
+                                                     ? QLocale(QLocale::English)
+                                                     : language);
     try {
         return run(application, options);
     } catch (const std::exception& error) {

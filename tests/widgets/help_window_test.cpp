@@ -45,7 +45,7 @@ TEST(HelpPages, TheGuideHasASectionForEveryPanelThatThereIs) {
     const auto docks = shown.window.findChildren<QDockWidget*>();
     ASSERT_GE(docks.size(), 7);
     for (const QDockWidget* dock : docks) {
-        EXPECT_FALSE(heading_about(dock->windowTitle(), all).isEmpty())
+        EXPECT_FALSE(heading_about(guide_title(dock->objectName()), all).isEmpty())
             << qPrintable(dock->windowTitle()) << " has no heading in docs/user-guide.md";
     }
 }

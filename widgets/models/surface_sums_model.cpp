@@ -15,16 +15,24 @@ struct ColumnText {
     const char* tip;
 };
 constexpr std::array<ColumnText, SurfaceSumsModel::column_count> columns = {{
-    {"Surface", "By number; double-click to go to its coating."},
-    {"Media", "In front of the surface and behind it."},
-    {"Flux mm²",
-     "Of all ghosts that turn there, however often. Each counts at both of its surfaces,\n"
-     "so that the column adds up to more than all ghosts."},
-    {"", "The same as a share of the largest."},
-    {"Of all %",
-     "Share of the light of all ghosts that would be gone if this surface did not reflect."},
-    {"On sensor mm²", "The part of the flux that lands on the sensor."},
-    {"Ghosts", "How many turn there."},
+    {QT_TRANSLATE_NOOP("SurfaceSumsModel", "Surface"),
+     QT_TRANSLATE_NOOP("SurfaceSumsModel", "By number; double-click to go to its coating.")},
+    {QT_TRANSLATE_NOOP("SurfaceSumsModel", "Media"),
+     QT_TRANSLATE_NOOP("SurfaceSumsModel", "In front of the surface and behind it.")},
+    {QT_TRANSLATE_NOOP("SurfaceSumsModel", "Flux mm²"),
+     QT_TRANSLATE_NOOP(
+         "SurfaceSumsModel",
+         "Of all ghosts that turn there, however often. Each counts at both of its surfaces,\n"
+         "so that the column adds up to more than all ghosts.")},
+    {"", QT_TRANSLATE_NOOP("SurfaceSumsModel", "The same as a share of the largest.")},
+    {QT_TRANSLATE_NOOP("SurfaceSumsModel", "Of all %"),
+     QT_TRANSLATE_NOOP(
+         "SurfaceSumsModel",
+         "Share of the light of all ghosts that would be gone if this surface did not reflect.")},
+    {QT_TRANSLATE_NOOP("SurfaceSumsModel", "On sensor mm²"),
+     QT_TRANSLATE_NOOP("SurfaceSumsModel", "The part of the flux that lands on the sensor.")},
+    {QT_TRANSLATE_NOOP("SurfaceSumsModel", "Ghosts"),
+     QT_TRANSLATE_NOOP("SurfaceSumsModel", "How many turn there.")},
 }};
 
 }  // namespace
@@ -48,7 +56,7 @@ QVariant SurfaceSumsModel::data(const QModelIndex& index, int role) const {
         case Qt::DisplayRole:
             switch (index.column()) {
                 case surface:
-                    return row.surface == table_->surface_count ? QStringLiteral("sensor")
+                    return row.surface == table_->surface_count ? tr("sensor")
                                                                 : QString::number(row.surface + 1);
                 case media: {
                     const auto& names = table_->media;
@@ -90,7 +98,7 @@ QVariant SurfaceSumsModel::headerData(int section, Qt::Orientation orientation, 
         return {};
     }
     const ColumnText& column = columns[static_cast<std::size_t>(section)];
-    return column_header(column.header, column.tip,
+    return column_header("SurfaceSumsModel", column.header, column.tip,
                          section == surface || section == media ? Qt::AlignLeft : Qt::AlignRight,
                          role);
 }

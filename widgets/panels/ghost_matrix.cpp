@@ -42,7 +42,7 @@ GhostMatrix::GhostMatrix(QWidget* parent) : QWidget(parent) {
     setObjectName("ghost_matrix");
     setMouseTracking(true);
     setFocusPolicy(Qt::StrongFocus);
-    setAccessibleName("Ghosts by their two surfaces");
+    setAccessibleName(tr("Ghosts by their two surfaces"));
 }
 
 void GhostMatrix::show_table(std::shared_ptr<const GhostTable> table) {

@@ -53,7 +53,7 @@ NumberField::NumberField(const QString& label, const QString& unit, const QStrin
     auto* name = new QLabel(label);
     name->setCursor(Qt::SizeHorCursor);
     QHBoxLayout* row = field_row(
-        *this, name, tip.isEmpty() ? tip : tip + "\nDrag its name sideways to change it.");
+        *this, name, tip.isEmpty() ? tip : tip + tr("\nDrag its name sideways to change it."));
     auto* scrub = new Scrub(*name, Qt::LeftButton);
     connect(scrub, &Scrub::begun, this, [this] { scrubbed_ = 0; });
     connect(scrub, &Scrub::moved, this, [this](double px) {

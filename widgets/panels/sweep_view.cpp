@@ -45,13 +45,13 @@ QImage toned(const FlareImage& image, double exposure_ev) {
 QString title_of(SweepQuantity quantity) {
     switch (quantity) {
         case SweepQuantity::on_sensor_flux:
-            return QStringLiteral("flux on the sensor, mm²");
+            return SweepView::tr("flux on the sensor, mm²");
         case SweepQuantity::peak:
-            return QStringLiteral("peak, E0");
+            return SweepView::tr("peak, E0");
         case SweepQuantity::flux:
             break;
     }
-    return QStringLiteral("flux, mm²");
+    return SweepView::tr("flux, mm²");
 }
 
 }  // namespace
