@@ -72,9 +72,9 @@ int SurfaceSumsModel::rowCount(const QModelIndex& parent) const {
 
 int SurfaceSumsModel::columnCount(const QModelIndex&) const { return column_count; }
 
-QModelIndex SurfaceSumsModel::group_of(std::size_t surface) const {
+QModelIndex SurfaceSumsModel::group_of(std::size_t row) const {
     const auto found =
-        std::ranges::find(groups_, surface, [](const Group& group) { return group.sum.surface; });
+        std::ranges::find(groups_, row, [](const Group& group) { return group.sum.surface; });
     return found == groups_.end() ? QModelIndex()
                                   : index(static_cast<int>(found - groups_.begin()), 0);
 }

@@ -29,7 +29,7 @@ class SurfaceSumsModel : public QAbstractItemModel {
     void set_table(std::shared_ptr<const GhostTable> table);
     const SurfaceSum& sum(int row) const { return groups_[static_cast<std::size_t>(row)].sum; }
     /// The group of a surface, or an invalid index.
-    QModelIndex group_of(std::size_t surface) const;
+    QModelIndex group_of(std::size_t row) const;
     /// The ghost in a group's row; null for the group's own.
     const GhostRow* ghost(const QModelIndex& index) const;
     /// Of the lens; the next one is the sensor.

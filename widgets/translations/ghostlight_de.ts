@@ -3131,6 +3131,253 @@ Eine Objektivdatei öffnen, oder eine auf das Fenster ziehen.</translation>
     </message>
 </context>
 <context>
+    <name>ghostlight::LightPanel</name>
+    <message>
+        <source>+ Add</source>
+        <translation>+ Neu</translation>
+    </message>
+    <message>
+        <source>Another light like this one, 5° further up</source>
+        <translation>Ein weiteres Licht wie dieses, 5° weiter oben</translation>
+    </message>
+    <message>
+        <source>− Remove</source>
+        <translation>− Weg</translation>
+    </message>
+    <message>
+        <source>Take this light away</source>
+        <translation>Dieses Licht wegnehmen</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Licht</translation>
+    </message>
+    <message>
+        <source>From %1 to %2%3. Wheel or arrows: %4.</source>
+        <translation>Von %1 bis %2%3. Rad oder Pfeile: %4.</translation>
+    </message>
+    <message>
+        <source>Back to %1%2</source>
+        <translation>Zurück auf %1%2</translation>
+    </message>
+    <message>
+        <source>%1: found &apos;%2&apos;, expected %3 to %4%5</source>
+        <translation>%1: gefunden &apos;%2&apos;, erwartet %3 bis %4%5</translation>
+    </message>
+    <message>
+        <source>change %1</source>
+        <translation>%1 ändern</translation>
+    </message>
+    <message>
+        <source>Back to %1</source>
+        <translation>Zurück auf %1</translation>
+    </message>
+    <message>
+        <source>Lights</source>
+        <translation>Lichter</translation>
+    </message>
+    <message>
+        <source>Lights of the scene. The chosen one is what the ghost table, the rays and the scene bar are about.</source>
+        <translation>Lichter der Szene. Um das gewählte geht es in der Reflextabelle, bei den Strahlen und in der Szenenleiste.</translation>
+    </message>
+    <message>
+        <source>choose another light</source>
+        <translation>anderes Licht wählen</translation>
+    </message>
+    <message>
+        <source>switch a light</source>
+        <translation>Licht schalten</translation>
+    </message>
+    <message>
+        <source>Chosen light</source>
+        <translation>Gewähltes Licht</translation>
+    </message>
+    <message>
+        <source>Field</source>
+        <translation>Feldwinkel</translation>
+    </message>
+    <message>
+        <source>Angle from the axis.</source>
+        <translation>Winkel zur Achse.</translation>
+    </message>
+    <message>
+        <source>Azimuth</source>
+        <translation>Azimut</translation>
+    </message>
+    <message>
+        <source>Direction about the axis; 90° is upright.</source>
+        <translation>Richtung um die Achse; 90° ist aufrecht.</translation>
+    </message>
+    <message>
+        <source>Spectrum</source>
+        <translation>Spektrum</translation>
+    </message>
+    <message>
+        <source>D65, A, E, LED-B3, sodium, a black body (5500 K), one wavelength (587.5618 nm), or a table (the name of a .csv file with wavelength and power)</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Size</source>
+        <translation>Größe</translation>
+    </message>
+    <message>
+        <source>point, sun (a disc of 0.533°), disc DEG, or picture FILE DEG (its width), up to 20°</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Intensity</source>
+        <translation>Stärke</translation>
+    </message>
+    <message>
+        <source>Stops over the irradiance E0 that pictures are relative to.</source>
+        <translation>Blendenstufen über der Bestrahlungsstärke E0, auf die sich Bilder beziehen.</translation>
+    </message>
+    <message>
+        <source>Veil</source>
+        <translation>Schleier</translation>
+    </message>
+    <message>
+        <source>Folded ghosts</source>
+        <translation>Zusammengefasste</translation>
+    </message>
+    <message>
+        <source>Ghosts of the least irradiance go into the veil, up to this share of the ghosts&apos; light, while the layer Veil is on.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Kernel</source>
+        <translation>Kern</translation>
+    </message>
+    <message>
+        <source>What stands for a folded ghost</source>
+        <translation>Was für einen zusammengefassten Reflex steht</translation>
+    </message>
+    <message>
+        <source>Scattered light</source>
+        <translation>Streulicht</translation>
+    </message>
+    <message>
+        <source>Share of the direct light that the lens scatters about its image. Dust and age decide it, not the prescription.</source>
+        <translation>Anteil des direkten Lichts, den das Objektiv um dessen Bild streut. Staub und Alter bestimmen ihn, nicht die Objektivdaten.</translation>
+    </message>
+    <message>
+        <source>Falls as r^−</source>
+        <translation>Fällt wie r^−</translation>
+    </message>
+    <message>
+        <source>Power of the distance far from the image.</source>
+        <translation>Potenz des Abstands fern vom Bild.</translation>
+    </message>
+    <message>
+        <source>Core</source>
+        <translation>Kern</translation>
+    </message>
+    <message>
+        <source>Where the power law begins.</source>
+        <translation>Wo das Potenzgesetz beginnt.</translation>
+    </message>
+    <message>
+        <source>Artistic</source>
+        <translation>Künstlerisch</translation>
+    </message>
+    <message>
+        <source>All ghosts</source>
+        <translation>Alle Reflexe</translation>
+    </message>
+    <message>
+        <source>Stops on top of what is physical.</source>
+        <translation>Blendenstufen über das Physikalische hinaus.</translation>
+    </message>
+    <message>
+        <source>Jitter</source>
+        <translation>Unruhe</translation>
+    </message>
+    <message>
+        <source>Every ghost moved by a normal deviate of this size.</source>
+        <translation>Jeder Reflex um eine normalverteilte Zahl dieser Größe verschoben.</translation>
+    </message>
+    <message>
+        <source>Seed</source>
+        <translation>Startzahl</translation>
+    </message>
+    <message>
+        <source>Another seed, another jitter.</source>
+        <translation>Eine andere Startzahl, eine andere Unruhe.</translation>
+    </message>
+    <message>
+        <source>Chosen ghosts</source>
+        <translation>Gewählte Reflexe</translation>
+    </message>
+    <message>
+        <source>drawn</source>
+        <translation>gezeichnet</translation>
+    </message>
+    <message>
+        <source>Draw the ghosts that are chosen in the table</source>
+        <translation>Die in der Tabelle gewählten Reflexe zeichnen</translation>
+    </message>
+    <message>
+        <source>Picture</source>
+        <translation>Bild</translation>
+    </message>
+    <message>
+        <source>switch ghosts</source>
+        <translation>Reflexe schalten</translation>
+    </message>
+    <message>
+        <source>Of the ghosts that are chosen in the table.</source>
+        <translation>Der Reflexe, die in der Tabelle gewählt sind.</translation>
+    </message>
+    <message>
+        <source>Gain</source>
+        <translation>Stärke</translation>
+    </message>
+    <message>
+        <source>Tint, red</source>
+        <translation>Ton, rot</translation>
+    </message>
+    <message>
+        <source>Tint, green</source>
+        <translation>Ton, grün</translation>
+    </message>
+    <message>
+        <source>Tint, blue</source>
+        <translation>Ton, blau</translation>
+    </message>
+    <message>
+        <source>Offset, x</source>
+        <translation>Versatz, x</translation>
+    </message>
+    <message>
+        <source>Offset, y</source>
+        <translation>Versatz, y</translation>
+    </message>
+    <message>
+        <source>↺ All neutral</source>
+        <translation>↺ Alles neutral</translation>
+    </message>
+    <message>
+        <source>Take back every artistic change</source>
+        <translation>Alle künstlerischen Änderungen zurücknehmen</translation>
+    </message>
+    <message>
+        <source>take back artistic changes</source>
+        <translation>künstlerische Änderungen zurücknehmen</translation>
+    </message>
+    <message>
+        <source>add a light</source>
+        <translation>Licht hinzufügen</translation>
+    </message>
+    <message>
+        <source>remove a light</source>
+        <translation>Licht entfernen</translation>
+    </message>
+    <message>
+        <source>Choose ghosts in the table first</source>
+        <translation>Zuerst Reflexe in der Tabelle wählen</translation>
+    </message>
+</context>
+<context>
     <name>ghostlight::LinePlot</name>
     <message>
         <source>nothing yet</source>
@@ -3198,6 +3445,122 @@ Eine Objektivdatei öffnen, oder eine auf das Fenster ziehen.</translation>
     <message>
         <source>Accuracy</source>
         <translation>Genauigkeit</translation>
+    </message>
+    <message>
+        <source>Drag to move the panel, double-click to float it, right-click to close</source>
+        <translation>Ziehen verschiebt das Feld, Doppelklick löst es ab, Rechtsklick schließt es</translation>
+    </message>
+    <message>
+        <source>Prescription</source>
+        <translation>Objektivdaten</translation>
+    </message>
+    <message>
+        <source>Layout</source>
+        <translation>Schnitt</translation>
+    </message>
+    <message>
+        <source>Ghosts</source>
+        <translation>Reflexe</translation>
+    </message>
+    <message>
+        <source>First order</source>
+        <translation>Paraxial</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Blende</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Licht</translation>
+    </message>
+    <message>
+        <source>Import report</source>
+        <translation>Importbericht</translation>
+    </message>
+    <message>
+        <source>&amp;File</source>
+        <translation>&amp;Datei</translation>
+    </message>
+    <message>
+        <source>Open &amp;Bundled</source>
+        <translation>&amp;Beiliegendes öffnen</translation>
+    </message>
+    <message>
+        <source>Open &amp;Recent</source>
+        <translation>&amp;Zuletzt benutzte öffnen</translation>
+    </message>
+    <message>
+        <source>&amp;Edit</source>
+        <translation>&amp;Bearbeiten</translation>
+    </message>
+    <message>
+        <source>&amp;Ghosts</source>
+        <translation>&amp;Reflexe</translation>
+    </message>
+    <message>
+        <source>&amp;Compare</source>
+        <translation>&amp;Vergleichen</translation>
+    </message>
+    <message>
+        <source>&amp;View</source>
+        <translation>&amp;Ansicht</translation>
+    </message>
+    <message>
+        <source>&amp;Flare</source>
+        <translation>&amp;Reflexbild</translation>
+    </message>
+    <message>
+        <source>La&amp;yout</source>
+        <translation>&amp;Schnitt</translation>
+    </message>
+    <message>
+        <source>&amp;Draw Flares With</source>
+        <translation>Reflexbilder &amp;zeichnen mit</translation>
+    </message>
+    <message>
+        <source>&amp;Help</source>
+        <translation>&amp;Hilfe</translation>
+    </message>
+    <message>
+        <source>move the light</source>
+        <translation>Licht bewegen</translation>
+    </message>
+    <message>
+        <source>&amp;Undo %1</source>
+        <translation>&amp;Rückgängig: %1</translation>
+    </message>
+    <message>
+        <source>&amp;Redo %1</source>
+        <translation>&amp;Wiederholen: %1</translation>
+    </message>
+    <message>
+        <source>let glasses absorb</source>
+        <translation>Gläser absorbieren lassen</translation>
+    </message>
+    <message>
+        <source>make glass lossless</source>
+        <translation>Glas verlustfrei machen</translation>
+    </message>
+    <message>
+        <source>No glass of this lens has a table of internal transmittance: open it with a catalogue (AGF) that has one</source>
+        <translation>Kein Glas dieses Objektivs hat eine Tabelle der Reintransmission: mit einem Katalog (AGF) öffnen, der sie hat</translation>
+    </message>
+    <message>
+        <source>Unsaved edits of %1 from %2 were found.</source>
+        <translation>Ungesicherte Änderungen von %1 vom %2 wurden gefunden.</translation>
+    </message>
+    <message>
+        <source>Recover</source>
+        <translation>Wiederherstellen</translation>
+    </message>
+    <message>
+        <source> Flare and ghosts follow once it is mended.</source>
+        <translation> Reflexbild und Tabelle folgen, sobald es ersetzt ist.</translation>
+    </message>
+    <message>
+        <source>Choose a glass…</source>
+        <translation>Ein Glas wählen …</translation>
     </message>
 </context>
 <context>
