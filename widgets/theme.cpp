@@ -14,7 +14,6 @@ namespace ghostlight {
 namespace {
 
 /// At 96 dpi; a point size would follow a display's odd physical resolution.
-constexpr int usual_text_px = 13;
 
 QColor mixed(const QColor& a, const QColor& b, double share_of_b) {
     const auto channel = [&](int from, int to) { return qRound(from + (to - from) * share_of_b); };

@@ -50,6 +50,8 @@ TEST(Translation, AGermanCatalogueChangesMenusTablesAndTheStatusLine) {
     OpenWindow shown(test::tessar());
     ASSERT_TRUE(shown.settle());
     MainWindow& window = shown.window;
+    EXPECT_EQ(menu_titles(window), (QStringList{"&Datei", "&Bearbeiten", "&Reflexe", "&Vergleichen",
+                                                "&Ansicht", "&Hilfe"}));
     EXPECT_EQ(window.actions()["file.open"].text(), QStringLiteral("Ö&ffnen …"));
     EXPECT_EQ(
         window.actions()["file.save"].toolTip(),

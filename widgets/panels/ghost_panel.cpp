@@ -34,6 +34,7 @@
 #include "widgets/panels/table_delegate.h"
 #include "widgets/selection.h"
 #include "widgets/settings.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -180,7 +181,7 @@ GhostPanel::~GhostPanel() = default;
 void GhostPanel::build_strip() {
     strip_ = new QFrame;
     strip_->setObjectName("layers_strip");  // looks like the flare's
-    strip_->setFixedHeight(40);
+    set_line_height(*strip_, 40);
     strip_->setMinimumWidth(1);
     strip_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     auto* row = new QHBoxLayout(strip_);

@@ -14,6 +14,7 @@
 #include "widgets/number_text.h"
 #include "widgets/panels/quiet_button.h"
 #include "widgets/panels/scene_field.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -50,7 +51,7 @@ LayerText text_of(LayerKind kind) {
 LayersStrip::LayersStrip(Document& document, QWidget* parent)
     : QFrame(parent), document_(document) {
     setObjectName("layers_strip");
-    setFixedHeight(40);
+    set_line_height(*this, 40);
     // The docks beside the flare keep their widths, however many layers are on.
     setMinimumWidth(1);
     setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);

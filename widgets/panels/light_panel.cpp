@@ -22,6 +22,7 @@
 #include "widgets/panels/quiet_button.h"
 #include "widgets/panels/scene_field.h"
 #include "widgets/selection.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -113,7 +114,7 @@ QWidget* with_reset(QWidget* field, QWidget* reset) {
 QLabel* dim_label(const QString& text) {
     auto* label = new QLabel(text);
     label->setForegroundRole(QPalette::PlaceholderText);
-    label->setMinimumHeight(28);
+    follow_text_scale(*label, [label] { label->setMinimumHeight(with_text(28)); });
     return label;
 }
 
@@ -192,7 +193,7 @@ void LightPanel::build_lights(QVBoxLayout& column) {
     list_->setToolTip(
         tr("Lights of the scene. The chosen one is what the ghost table, the rays and "
            "the scene bar are about."));
-    list_->setFixedHeight(92);
+    set_line_height(*list_, 92);
     list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     list_->setTextElideMode(Qt::ElideRight);
     column.addWidget(list_);

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "widgets/panels/table_delegate.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -20,8 +21,10 @@ QTableView* plain_table(QAbstractItemModel* model, QAbstractItemDelegate* delega
     table->setWordWrap(false);
     table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     table->verticalHeader()->hide();
-    table->verticalHeader()->setDefaultSectionSize(table_row_height);
-    table->verticalHeader()->setMinimumSectionSize(table_row_height);
+    follow_text_scale(*table, [table] {
+        table->verticalHeader()->setMinimumSectionSize(with_text(table_row_height));
+        table->verticalHeader()->setDefaultSectionSize(with_text(table_row_height));
+    });
     table->horizontalHeader()->setHighlightSections(false);
     table->horizontalHeader()->setMinimumSectionSize(28);
     return table;

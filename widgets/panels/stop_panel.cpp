@@ -37,6 +37,7 @@
 #include "widgets/panels/scrub.h"
 #include "widgets/panels/stop_statistics.h"
 #include "widgets/prescription_edits.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -225,7 +226,7 @@ void StopPanel::add_lens_row(QGridLayout& grid, const QString& label, const QStr
     editor->setObjectName("stop_" + row.name);
     editor->setAccessibleName(label);
     editor->setToolTip(whole_tip);
-    editor->setFixedWidth(96);
+    set_line_width(*editor, 96);
     editor->installEventFilter(this);
     auto* title = new QLabel(label);
     title->setToolTip(whole_tip);
