@@ -13,6 +13,7 @@
 #include "widgets/ghost_colors.h"
 #include "widgets/number_text.h"
 #include "widgets/palette.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -25,7 +26,6 @@ struct LayoutOverlay {
 
 constexpr double mark_radius_px = 8.0;
 constexpr double label_gap_px = 6.0;
-constexpr int small_font_px = 11;
 
 void paint_hovered(QPainter& painter, const LensDrawing& drawing, const PlaneView& plane,
                    const SurfaceOutline& surface) {
@@ -105,9 +105,7 @@ void paint_marks(QPainter& painter, const std::vector<RayFan>& fans, const Plane
 void paint_layout_overlay(QPainter& painter, const LensDrawing& drawing,
                           const std::vector<RayFan>& fans, const PlaneView& plane,
                           const SurfaceOutline* hovered) {
-    QFont font = painter.font();
-    font.setPixelSize(small_font_px);
-    painter.setFont(font);
+    painter.setFont(small_font());
     if (hovered != nullptr) {
         paint_hovered(painter, drawing, plane, *hovered);
     }

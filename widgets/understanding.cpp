@@ -17,6 +17,7 @@
 #include "widgets/flare_view.h"
 #include "widgets/ghost_colors.h"
 #include "widgets/models/ghost_table_model.h"
+#include "widgets/models/prescription_model.h"
 #include "widgets/number_text.h"
 #include "widgets/panels/check_panel.h"
 #include "widgets/panels/flare_panel.h"

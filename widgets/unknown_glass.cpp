@@ -13,8 +13,8 @@ namespace ghostlight {
 namespace {
 
 /// Texts for people, as translators know them.
-struct UnknownGlass {
-    Q_DECLARE_TR_FUNCTIONS(UnknownGlass)
+struct UnknownGlassText {
+    Q_DECLARE_TR_FUNCTIONS(UnknownGlassText)
 };
 
 constexpr std::size_t offered = 6;
@@ -38,9 +38,10 @@ QString why_unknown(const Prescription& lens, std::size_t row) {
     const Medium& medium = lens.surfaces[row].medium_after;
     const UnknownGlass* glass = unknown(medium);
     const QString name =
-        medium.name.empty() ? UnknownGlass::tr("The glass")
-                            : UnknownGlass::tr("Glass %1").arg(QString::fromStdString(medium.name));
-    return UnknownGlass::tr("%1 after surface %2 is not known: %3.")
+        medium.name.empty()
+            ? UnknownGlassText::tr("The glass")
+            : UnknownGlassText::tr("Glass %1").arg(QString::fromStdString(medium.name));
+    return UnknownGlassText::tr("%1 after surface %2 is not known: %3.")
         .arg(name)
         .arg(row + 1)
         .arg(glass != nullptr ? QString::fromStdString(glass->why) : QString());

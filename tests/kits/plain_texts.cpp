@@ -57,8 +57,9 @@ bool is_for_translators(std::string_view call) {
 /// Whether what stands in this call is for the program alone.
 bool is_for_no_one(std::string_view call) {
     static const std::set<std::string_view, std::less<>> names = {
-        "QKeySequence", "column_header", "Q_ASSERT_X",  "qPrintable",
-        "setFamily",    "setObjectName", "setProperty", "QStyleFactory::create",
+        "QKeySequence", "column_header", "Q_ASSERT_X",
+        "qPrintable",   "setFamily",     "setObjectName",
+        "setProperty",  "setStyleSheet", "QStyleFactory::create",
         "contains",     "compare"};
     return names.contains(call);
 }
@@ -100,7 +101,7 @@ bool reads_as_words(const std::string& text) {
 /// Keys (Qt translates them), and names that are the same in every language.
 bool is_the_same_everywhere(const std::string& text) {
     static const std::regex same(
-        R"(((Ctrl|Alt|Shift)\+.*|Alt|Esc|Vd|PgF|ΔPgF|MgF2.*|(, )?OpenGL( · )?|Ghostlight|Inter))");
+        R"(((Ctrl|Alt|Shift)\+.*|[a-z_]+\.[a-z0-9_]+|Alt|Esc|Vd|PgF|ΔPgF|MgF2.*|(, )?OpenGL( · )?|Ghostlight|Inter))");
     return std::regex_match(text, same);
 }
 

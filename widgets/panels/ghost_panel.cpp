@@ -14,6 +14,7 @@
 #include <QStyle>
 #include <QTableView>
 #include <QToolButton>
+#include <QTreeView>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -33,6 +34,7 @@
 #include "widgets/panels/table_delegate.h"
 #include "widgets/selection.h"
 #include "widgets/settings.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -100,14 +102,14 @@ QTableView* make_table(QAbstractItemModel* model, QObject* parent) {
     return table;
 }
 
-QTableView* make_sums(QAbstractItemModel* model, QObject* parent) {
-    QTableView* table = plain_table(
+QTreeView* make_sums(QAbstractItemModel* model, QObject* parent) {
+    QTreeView* tree = plain_tree(
         model, new TableDelegate(SurfaceSumsModel::bar_role, SurfaceSumsModel::stale_role, parent));
-    table->setObjectName("surface_sums");
-    table->setSelectionMode(QAbstractItemView::SingleSelection);
-    table->setSelectionBehavior(QAbstractItemView::SelectRows);
-    table->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    return table;
+    tree->setObjectName("surface_sums");
+    tree->setSelectionMode(QAbstractItemView::ExtendedSelection);
+    tree->setSelectionBehavior(QAbstractItemView::SelectRows);
+    tree->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    return tree;
 }
 
 }  // namespace
@@ -156,21 +158,15 @@ GhostPanel::GhostPanel(Selection& selection, const Actions& actions, QWidget* pa
         menu.exec(table_->viewport()->mapToGlobal(at));
     });
     connect(matrix_, &GhostMatrix::selected, &selection_, &Selection::set_ghosts);
-    connect(surfaces_, &QTableView::doubleClicked, this, [this](const QModelIndex& index) {
-        const std::size_t row = sums_->sum(index.row()).surface;
+    connect(surfaces_, &QTreeView::doubleClicked, this, [this](const QModelIndex& index) {
+        const QModelIndex group = index.parent().isValid() ? index.parent() : index;
+        const std::size_t row = sums_->sum(group.row()).surface;
         if (row < sums_->surface_count()) {
             Q_EMIT surface_chosen(static_cast<int>(row));
         }
     });
-    connect(surfaces_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
-            [this](const QModelIndex& index) {
-                if (index.isValid()) {
-                    const std::size_t row = sums_->sum(index.row()).surface;
-                    words_->setText(row == sums_->surface_count()
-                                        ? tr("touches sensor")
-                                        : QStringLiteral("touches %1").arg(row + 1));
-                }
-            });
+    connect(surfaces_->selectionModel(), &QItemSelectionModel::selectionChanged, this,
+            &GhostPanel::select_from_groups);
     table_->horizontalHeader()->setContextMenuPolicy(Qt::CustomContextMenu);
     connect(table_->horizontalHeader(), &QWidget::customContextMenuRequested, this,
             &GhostPanel::choose_columns);
@@ -185,7 +181,7 @@ GhostPanel::~GhostPanel() = default;
 void GhostPanel::build_strip() {
     strip_ = new QFrame;
     strip_->setObjectName("layers_strip");  // looks like the flare's
-    strip_->setFixedHeight(40);
+    set_line_height(*strip_, 40);
     strip_->setMinimumWidth(1);
     strip_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     auto* row = new QHBoxLayout(strip_);
@@ -384,7 +380,18 @@ void GhostPanel::set_table(std::shared_ptr<const GhostTable> table) {
     matrix_->show_table(table);
     {
         const QSignalBlocker quiet(surfaces_->selectionModel());
+        std::vector<std::size_t> open;  // groups that stay so
+        for (int row = 0; row < sums_->rowCount(); ++row) {
+            if (surfaces_->isExpanded(sums_->index(row, 0))) {
+                open.push_back(sums_->sum(row).surface);
+            }
+        }
         sums_->set_table(table);
+        for (const std::size_t surface : open) {
+            if (const QModelIndex group = sums_->group_of(surface); group.isValid()) {
+                surfaces_->expand(group);
+            }
+        }
     }
     filter_->invalidate();
     selecting_ = false;
@@ -448,8 +455,54 @@ void GhostPanel::select_from_views() {
     selecting_ = false;
 }
 
+void GhostPanel::select_from_groups() {
+    if (selecting_) {
+        return;
+    }
+    std::vector<GhostPath> ghosts;
+    for (const QModelIndex& index : surfaces_->selectionModel()->selectedRows()) {
+        if (const GhostRow* row = sums_->ghost(index)) {
+            if (std::ranges::find(ghosts, row->path) == ghosts.end()) {
+                ghosts.push_back(row->path);
+            }
+        } else {
+            const std::size_t surface = sums_->sum(index.row()).surface;
+            words_->setText(surface == sums_->surface_count()
+                                ? QStringLiteral("touches sensor")
+                                : QStringLiteral("touches %1").arg(surface + 1));
+        }
+    }
+    if (!ghosts.empty()) {
+        in_groups_ = true;
+        selection_.set_ghosts(std::move(ghosts));
+        in_groups_ = false;
+    }
+}
+
+void GhostPanel::select_in_groups() {
+    if (in_groups_) {
+        return;
+    }
+    QItemSelection rows;
+    for (int group = 0; group < sums_->rowCount(); ++group) {
+        const QModelIndex top = sums_->index(group, 0);
+        for (int k = 0; k < sums_->rowCount(top); ++k) {
+            const QModelIndex index = sums_->index(k, 0, top);
+            if (std::ranges::find(selection_.ghosts(), sums_->ghost(index)->path) !=
+                selection_.ghosts().end()) {
+                rows.select(index, index);
+            }
+        }
+    }
+    const bool selecting = std::exchange(selecting_, true);
+    surfaces_->selectionModel()->select(
+        rows, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
+    selecting_ = selecting;
+}
+
 void GhostPanel::select_in_table() {
     matrix_->set_selected(selection_.ghosts());
+    select_in_groups();
     if (selecting_) {
         return;
     }

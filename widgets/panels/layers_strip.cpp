@@ -2,6 +2,7 @@
 
 #include <QFileDialog>
 #include <QHBoxLayout>
+#include <QMenu>
 #include <QToolButton>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include "widgets/number_text.h"
 #include "widgets/panels/quiet_button.h"
 #include "widgets/panels/scene_field.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -49,7 +51,7 @@ LayerText text_of(LayerKind kind) {
 LayersStrip::LayersStrip(Document& document, QWidget* parent)
     : QFrame(parent), document_(document) {
     setObjectName("layers_strip");
-    setFixedHeight(40);
+    set_line_height(*this, 40);
     // The docks beside the flare keep their widths, however many layers are on.
     setMinimumWidth(1);
     setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
@@ -59,7 +61,11 @@ LayersStrip::LayersStrip(Document& document, QWidget* parent)
     for (const LayerKind kind : layer_kinds) {
         add_row(kind);
     }
+    more_ = quiet_button("⋯", tr("Gains and switches that have no room here"), false);
+    more_->hide();
+    row->addWidget(more_);
     row->addStretch(1);
+    connect(more_, &QToolButton::clicked, this, &LayersStrip::show_more);
     ask_backdrop = [this] {
         return QFileDialog::getOpenFileName(
             window(), tr("A picture behind the flare"), {},
@@ -156,11 +162,75 @@ void LayersStrip::follow_document() {
         row.gain->setEnabled(layers.shows(kind));
         row.gain->set_text(at_least_decimals(std::round(setting.gain_ev * 100.0) / 100.0, 1));
         row.reset->setEnabled(setting.gain_ev != 0.0);
-        // What is off takes no room but its name.
-        row.gain->setVisible(layers.shows(kind));
-        row.reset->setVisible(layers.shows(kind) && setting.gain_ev != 0.0);
-        row.alone->setVisible(setting.on || layers.alone == kind);
     }
+    fit_width();
+}
+
+void LayersStrip::fit_width() {
+    const LayerSettings& layers = document_.scene().layers;
+    enum Room { all, no_alone, no_gains, names };
+    const auto show_for = [&](int room) {
+        for (const LayerKind kind : layer_kinds) {
+            // What is off takes no room but its name.
+            const Row& row = rows_[static_cast<std::size_t>(kind)];
+            const LayerSetting& setting = layers.of(kind);
+            const bool gained = setting.gain_ev != 0.0;
+            row.alone->setVisible(room < no_alone && (setting.on || layers.alone == kind));
+            row.gain->setVisible(room < no_gains && layers.shows(kind));
+            row.reset->setVisible(room < no_gains && layers.shows(kind) && gained);
+        }
+        ringing_->setVisible(room < names);
+        more_->setVisible(room > all);
+    };
+    // Names stay whole; what has no room goes into the menu, the least wanted first.
+    for (int room = all; room <= names; ++room) {
+        show_for(room);
+        layout()->invalidate();
+        if (layout()->sizeHint().width() <= width()) {
+            break;
+        }
+    }
+}
+
+void LayersStrip::show_more() {
+    auto* menu = new QMenu(this);
+    menu->setObjectName("more_of_layers");
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    const LayerSettings& layers = document_.scene().layers;
+    for (const LayerKind kind : layer_kinds) {
+        const Row& row = rows_[static_cast<std::size_t>(kind)];
+        menu->addSection(row.on->text());
+        if (layers.shows(kind)) {
+            const double gain_ev = layers.of(kind).gain_ev;
+            const auto offer = [&](const QString& text, double to_ev) {
+                connect(menu->addAction(text), &QAction::triggered, this,
+                        [this, kind, to_ev] { set_gain(kind, to_ev); });
+            };
+            offer(tr("Half a Stop Brighter"), gain_ev + gain_step_ev);
+            offer(tr("Half a Stop Darker"), gain_ev - gain_step_ev);
+            if (gain_ev != 0.0) {
+                offer(row.reset->toolTip(), 0.0);
+            }
+        }
+        QAction* alone = menu->addAction(tr("This Layer Alone"));
+        alone->setCheckable(true);
+        alone->setChecked(row.alone->isChecked());
+        alone->setEnabled(row.alone->isEnabled());
+        connect(alone, &QAction::triggered, row.alone, &QToolButton::click);
+        if (kind == LayerKind::ghosts) {
+            QAction* ringing = menu->addAction(ringing_->text());
+            ringing->setCheckable(true);
+            ringing->setChecked(ringing_->isChecked());
+            ringing->setEnabled(ringing_->isEnabled());
+            connect(ringing, &QAction::triggered, ringing_, &QToolButton::click);
+        }
+    }
+    menu->popup(more_->mapToGlobal(QPoint(0, -menu->sizeHint().height())));
+}
+
+void LayersStrip::resizeEvent(QResizeEvent* event) {
+    QFrame::resizeEvent(event);
+    fit_width();
 }
 
 }  // namespace ghostlight

@@ -15,6 +15,7 @@
 #include "widgets/models/prescription_model.h"
 #include "widgets/number_text.h"
 #include "widgets/panels/scrub.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -61,7 +62,7 @@ NumberHandle::NumberHandle(PrescriptionModel& model, QWidget* parent)
     slider_->setAccessibleName(tr("Number of the cell in hand"));
     slider_->setSingleStep(slider_end / 100);
     slider_->setPageStep(slider_end / 10);
-    editor_->setFixedWidth(104);
+    set_line_width(*editor_, 104);
     editor_->setAlignment(Qt::AlignRight);
     editor_->setAccessibleName(tr("Value of the cell in hand"));
     choice_->setAccessibleName(tr("Which number of the cell"));

@@ -14,6 +14,7 @@
 #include "widgets/document.h"
 #include "widgets/models/cell_text.h"
 #include "widgets/number_text.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -30,7 +31,7 @@ ScaleStrip::ScaleStrip(Document& document, QWidget* parent)
     efl_->setAccessibleName(tr("Scale to a focal length in mm"));
     efl_->setToolTip(tr("The focal length that the lens is to have, in mm"));
     for (QLineEdit* editor : {factor_, efl_}) {
-        editor->setFixedWidth(84);
+        set_line_width(*editor, 84);
         editor->setAlignment(Qt::AlignRight);
         connect(editor, &QLineEdit::returnPressed, this, &ScaleStrip::take);
     }

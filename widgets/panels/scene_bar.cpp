@@ -19,6 +19,7 @@
 #include "widgets/panels/scene_field.h"
 #include "widgets/prescription_edits.h"
 #include "widgets/tabular_text.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -70,7 +71,7 @@ SceneBar::SceneBar(Document& document, QWidget* parent)
     setFloatable(false);
     toggleViewAction()->setVisible(false);
     auto* content = new QWidget;
-    content->setFixedHeight(40);  // also without fields
+    set_line_height(*content, 40);  // also without fields
     auto* row = new QHBoxLayout(content);
     row->setContentsMargins(12, 6, 12, 6);
     row->setSpacing(8);

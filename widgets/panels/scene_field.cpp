@@ -13,6 +13,7 @@
 
 #include "widgets/panels/scrub.h"
 #include "widgets/tabular_text.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -35,7 +36,7 @@ constexpr double step_px = 6.0;
 QHBoxLayout* field_row(QFrame& frame, QLabel* text, const QString& tip) {
     frame.setProperty("field", true);
     frame.setToolTip(tip);
-    frame.setFixedHeight(28);
+    set_line_height(frame, 28);
     frame.setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
     auto* row = new QHBoxLayout(&frame);
     row->setContentsMargins(8, 0, 8, 0);

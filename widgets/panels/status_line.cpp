@@ -41,7 +41,10 @@ StatusLine::StatusLine(Document& document, QWidget* parent)
     row->addStretch();
     row->addWidget(engine_);
     row->addWidget(saved_);
-    timing_->setToolTip(tr("From the last change to its first picture on screen"));
+    timing_->setToolTip(tr(
+        "From the last change to its first picture on screen: finding where ghosts enter and what "
+        "may be\n"
+        "left out, tracing, rasterising, adding up, bringing to the screen; the rest is waiting"));
     show_engine({});
     connect(&document_, &Document::changed, this, &StatusLine::follow_document);
     connect(&document_, &Document::opened, this, [this] {
@@ -86,22 +89,37 @@ void StatusLine::show_picture(const FlarePicture& picture, double upload_ms) {
                                 std::chrono::steady_clock::now() - picture.changed_at)
                                 .count();
     const FlareTimes& times = picture.image->times;
-    timing_->set_text(
-        tr("*%1 ms* trace %2 · raster %3 · show %4")
-            .arg(milliseconds(total_ms), milliseconds(times.bounds_ms + times.trace_ms),
-                 milliseconds(times.raster_ms + times.composite_ms), milliseconds(upload_ms)));
+    // What took no time worth telling is not told.
+    constexpr double least_ms = 0.05;
+    QStringList parts;
+    const auto add = [&](const QString& what, double ms) {
+        if (ms >= least_ms) {
+            parts << what.arg(milliseconds(ms));
+        }
+    };
+    add(tr("bounds %1"), times.bounds_ms);
+    add(tr("trace %1"), times.trace_ms);
+    add(tr("raster %1"), times.raster_ms);
+    add(tr("ringing %1"), times.ringing_ms);
+    add(tr("compose %1"), times.composite_ms);
+    add(tr("show %1"), upload_ms);
+    timing_->set_text(tr("*%1 ms* ").arg(milliseconds(total_ms)) + parts.join(" · "));
 }
 
 void StatusLine::show_plan(const FlarePlan& plan) {
-    const std::size_t drawn = plan.count(GhostFate::drawn);
-    picture_->set_text(
-        tr("flare within *%1 %* · %2 of %3 ghosts drawn")
-            .arg(significant(100.0 * plan.estimated_error(), 2))
-            .arg(drawn)
-            .arg(plan.ghosts.size()) +
-        (plan.left_out_mm2 > 0.0
-             ? tr(" · left out ≤ %1 %").arg(significant(100.0 * plan.left_out_share(), 2))
-             : QString()));
+    QString text = tr("flare within *%1 %* · %2 of %3 ghosts drawn")
+                       .arg(significant(100.0 * plan.estimated_error(), 2))
+                       .arg(plan.count(GhostFate::drawn))
+                       .arg(plan.ghosts.size());
+    if (const std::size_t folded = plan.count(GhostFate::folded); folded > 0) {
+        text += tr(" · %n in the veil", nullptr, static_cast<int>(folded));
+    }
+    if (plan.left_out_mm2 > 0.0) {
+        text +=
+            tr(" · %n left out ≤ %1 %", nullptr, static_cast<int>(plan.count(GhostFate::left_out)))
+                .arg(significant(100.0 * plan.left_out_share(), 2));
+    }
+    picture_->set_text(text);
     picture_->setToolTip(
         tr("Estimated error of the ghost layer, L1 over its light on the sensor "
            "(%1 % allowed).\n%2 ghosts land beside the sensor, through %3 no ray was "

@@ -21,6 +21,7 @@
 #include "widgets/panels/quiet_button.h"
 #include "widgets/panels/sweep_view.h"
 #include "widgets/selection.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -34,7 +35,7 @@ constexpr int most_points = 200;
 QFrame* framed_field(const QString& label, QWidget* control) {
     auto* frame = new QFrame;
     frame->setProperty("field", true);
-    frame->setFixedHeight(28);
+    set_line_height(*frame, 28);
     auto* row = new QHBoxLayout(frame);
     row->setContentsMargins(8, 0, 8, 0);
     row->setSpacing(6);
@@ -49,7 +50,7 @@ QLineEdit* number_edit(const char* name, int width) {
     auto* edit = new QLineEdit;
     edit->setObjectName(name);
     edit->setFrame(false);
-    edit->setFixedWidth(width);
+    set_line_width(*edit, width);
     return edit;
 }
 
@@ -88,7 +89,7 @@ SweepPanel::SweepPanel(Document& document, Selection& selection, QWidget* parent
     problem_->hide();
     auto* strip = new QFrame;
     strip->setObjectName("layers_strip");
-    strip->setFixedHeight(40);
+    set_line_height(*strip, 40);
     auto* row = new QHBoxLayout(strip);
     row->setContentsMargins(12, 6, 12, 6);
     row->setSpacing(6);
