@@ -1,6 +1,7 @@
 #include "core/flare/film_tables.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "core/flare/film_tables_kernel.h"
@@ -17,10 +18,22 @@ constexpr std::size_t tables_per_surface = 4;  ///< from either side, reflected 
 
 void curve(const FilmCurveView& view) { GHOSTLIGHT_DISPATCH(film_curve, view); }
 
+/// Cosines where n sin θ is what it is at `cosines` in an index of `main_n`.
+std::vector<float> cosines_in(double n, double main_n, const std::vector<float>& cosines) {
+    if (n == main_n) return cosines;
+    std::vector<float> own;
+    for (const float cosine : cosines) {
+        const auto c = static_cast<double>(cosine);
+        const double square = 1.0 - (main_n / n) * (main_n / n) * (1.0 - c * c);
+        own.push_back(static_cast<float>(std::sqrt(std::max(square, 0.0))));
+    }
+    return own;
+}
+
 }  // namespace
 
 FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threads,
-                       CoatingModel model)
+                       CoatingModel model, const OpticalSystem* main)
     : stride_((systems.size() + film_padding - 1) / film_padding * film_padding),
       surfaces_(turning_count(systems.front())) {
     const std::size_t table_size = static_cast<std::size_t>(nodes) * stride_;
@@ -54,6 +67,12 @@ FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threa
                                   static_cast<float>(2.0 * std::numbers::pi / film.wavelength_nm *
                                                      layer.thickness_nm)});
             const std::vector<AngleAt<float>> angles = angles_at<float>(film);
+            double main_n = film.n_in;
+            if (main != nullptr) {
+                const Film& traced = surface_at(*main, surface).film;
+                main_n = forward ? traced.n_in : traced.n_out;
+            }
+            const std::vector<float> own_cosines = cosines_in(film.n_in, main_n, cosines);
             curve({.n_in = static_cast<float>(film.n_in),
                    .n_out = static_cast<float>(film.n_out),
                    .layers = layers.data(),
@@ -62,17 +81,17 @@ FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threa
                    .angles = angles.empty() ? nullptr : angles.data(),
                    .angle_count = static_cast<int>(angles.size()),
                    .count = padded_nodes,
-                   .cosines = cosines.data(),
+                   .cosines = own_cosines.data(),
                    .reflectance = r.data(),
                    .transmittance = t.data(),
                    .most_reflected = most.data()});
             if (model == CoatingModel::hullin_2011) {
                 std::ranges::fill(t, 1.0F);
                 for (std::size_t i = 0; i < padded_nodes && film.layers.size() == 1; ++i)
-                    r[i] = static_cast<float>(
-                        hullin_2011_reflectance(static_cast<double>(cosines[i]), film.wavelength_nm,
-                                                film.layers.front().thickness_nm, film.n_in,
-                                                film.layers.front().n, film.n_out));
+                    r[i] = static_cast<float>(hullin_2011_reflectance(
+                        static_cast<double>(own_cosines[i]), film.wavelength_nm,
+                        film.layers.front().thickness_nm, film.n_in, film.layers.front().n,
+                        film.n_out));
                 // Its mean of s and p is all it gives; the larger is at most twice that.
                 std::ranges::transform(r, most.begin(), [](float mean) { return 2.0F * mean; });
             }

@@ -18,11 +18,14 @@ enum class CoatingModel {
 /// several wavelengths, over the cosine of incidence: linear between nodes, which for the films of
 /// lenses is good to 1e-3 of R but within a node of the onset of total reflection. A ray's weights
 /// at all wavelengths then cost one look-up at each surface instead of one film a wavelength.
+/// With `main`, the lens that rays are traced in, the cosines are those of its wavelength, and n
+/// sin θ is taken to be the same at all: that keeps the onset of total reflection in its place, and
+/// is exact behind plane surfaces.
 class FilmTables {
    public:
     /// `systems`: the lens at each wavelength, in one order.
     FilmTables(const std::vector<OpticalSystem>& systems, unsigned threads,
-               CoatingModel model = CoatingModel::exact);
+               CoatingModel model = CoatingModel::exact, const OpticalSystem* main = nullptr);
 
     /// Wavelengths, padded; those that were given come first.
     std::size_t stride() const { return stride_; }

@@ -11,9 +11,11 @@ namespace ghostlight {
 namespace {
 
 constexpr int polarised_cells = 6;
-constexpr int closer_cells = 12;        ///< where few of those rays are valid
-constexpr std::size_t few_valid = 8;    ///< of 28
-constexpr double least_error = 1e-3;    ///< of the light: more is looked at more closely
+constexpr int closer_cells = 12;      ///< where few of those rays are valid
+constexpr std::size_t few_valid = 8;  ///< of 28
+constexpr double least_error = 1e-3;  ///< of the light: more is looked at more closely
+/// Where films give hardly any light at one wavelength's angles, ratios mean nothing.
+constexpr float least_color_ratio = 0.25F, most_color_ratio = 4.0F;
 constexpr double steeper_by_rad = 0.1;  ///< than the rays of a grid may be those between them
 
 /// Rays of a half grid that get through all clear radii, and their neighbours, valid or not.
@@ -40,6 +42,7 @@ PolarisedShare polarised_share(const FlareScene& scene, const TracePath<float>& 
     for (const int cells : {polarised_cells, closer_cells}) {
         result.grid.box = box;
         result.grid.cells = cells;
+        result.grid.half.keep_cosines = !scene.is_gray();
         trace_mirrored(path, beam, Weights::polarised, result.grid);
         const Bundle<float>& rays = result.grid.half;
         result.ratio.assign(rays.size(), 1.0F);
@@ -60,8 +63,54 @@ PolarisedShare polarised_share(const FlareScene& scene, const TracePath<float>& 
     return result;
 }
 
+ColorShare color_share(const FlareScene& scene, const GhostPath& path, const BeamFrame& beam,
+                       const PolarisedShare& polarised) {
+    ColorShare result;
+    if (scene.is_gray() || polarised.ratio.empty()) return result;
+    const std::size_t samples = scene.samples.size(), stride = scene.films.stride();
+    const std::size_t count = polarised.grid.half.size();
+    std::vector<float> main, own;
+    scene.films.weights(trace_path<float>(scene.system(), path), polarised.grid.half, main);
+    result.ratio.assign(count * samples, 0.0F);
+    std::vector<std::vector<double>> shares;
+    for (const SpectralSample& s : scene.samples)
+        shares.push_back(scene.interpolation(s.wavelength_nm));
+    for (std::size_t g = 0; g < scene.geometry.size(); ++g) {
+        if (g == scene.main) {
+            for (std::size_t k = 0; k < count; ++k)
+                for (std::size_t w = 0; w < samples; ++w)
+                    result.ratio[k * samples + w] += static_cast<float>(shares[w][g]);
+            continue;
+        }
+        MirrorGrid& grid = g == 0 ? result.first : result.last;
+        grid.box = polarised.grid.box;
+        grid.cells = polarised.grid.cells;
+        grid.half.keep_cosines = true;
+        const auto trace = trace_path<float>(scene.geometry[g], path);
+        trace_mirrored(trace, beam, Weights::polarised, grid);
+        scene.films.weights(trace, grid.half, own);
+        for (std::size_t k = 0; k < count; ++k) {
+            const float average = grid.half.weight_average[k];
+            const bool valid = grid.half.margin[k] >= 0.0F && average > 0.0F &&
+                               polarised.grid.half.margin[k] >= 0.0F;
+            // Where a colour fails the main one stands for it.
+            const float turned = valid ? grid.half.weight[k] / average / polarised.ratio[k] : 1.0F;
+            for (std::size_t w = 0; w < samples; ++w) {
+                const float there = main[k * stride + w];
+                const float angles = valid && there > 0.0F ? own[k * stride + w] / there : 1.0F;
+                result.ratio[k * samples + w] +=
+                    static_cast<float>(shares[w][g]) *
+                    std::clamp(turned * angles, least_color_ratio, most_color_ratio);
+            }
+        }
+    }
+    for (float& ratio : result.ratio) ratio = std::max(ratio, 0.0F);
+    return result;
+}
+
 std::vector<float> ghost_weights(const FlareScene& scene, const TracePath<float>& path,
-                                 const MirrorGrid& grid, const PolarisedShare& polarised) {
+                                 const MirrorGrid& grid, const PolarisedShare& polarised,
+                                 const std::vector<float>& colors) {
     std::vector<float> weights;
     scene.films.weights(path, grid.half, weights);
     const std::size_t stride = scene.films.stride();
@@ -74,9 +123,17 @@ std::vector<float> ghost_weights(const FlareScene& scene, const TracePath<float>
         }
     } else if (!polarised.ratio.empty()) {
         const std::vector<float> ratio =
-            interpolate_smooth(polarised.grid, polarised.ratio, grid.cells);
+            interpolate_smooth(polarised.grid, polarised.ratio, 1, grid.cells);
         for (std::size_t k = 0; k < ratio.size(); ++k)
             for (std::size_t w = 0; w < stride; ++w) weights[k * stride + w] *= ratio[k];
+    }
+    if (!colors.empty()) {
+        const std::size_t samples = scene.samples.size();
+        const std::vector<float> ratio =
+            interpolate_smooth(polarised.grid, colors, static_cast<int>(samples), grid.cells);
+        for (std::size_t k = 0; k < rays.size(); ++k)
+            for (std::size_t w = 0; w < samples; ++w)
+                weights[k * stride + w] *= std::max(ratio[k * samples + w], 0.0F);
     }
     fill_failed(grid, static_cast<int>(stride), weights);
     return weights;
