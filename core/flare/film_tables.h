@@ -35,6 +35,11 @@ class FilmTables {
     void weights(const TracePath<float>& path, const Bundle<float>& rays,
                  std::vector<float>& weights) const;
 
+    /// What polarisation multiplies those weights by where all planes of incidence are one: s and p
+    /// go through by themselves, each half of the light. Values like weights'.
+    void polarisation(const TracePath<float>& path, const Bundle<float>& rays,
+                      std::vector<float>& factors) const;
+
     /// The largest reflectance of a surface for light that meets it at this cosine or more
     /// steeply to it, of either polarisation, over the wavelengths. From the tables' own nodes.
     double most_reflected(std::size_t surface, bool forward, double least_cosine) const;
@@ -42,6 +47,7 @@ class FilmTables {
    private:
     std::size_t stride_ = 0, surfaces_ = 0;
     std::vector<float> values_;
+    std::vector<float> s_shares_;           ///< of s over the mean, laid out like values_
     std::vector<float> most_;               ///< by surface, side and node
     std::vector<float> absorption_per_mm_;  ///< by surface: before and after it; else empty
     std::vector<bool> invisible_;           ///< by surface: at no wavelength anything there
@@ -49,7 +55,9 @@ class FilmTables {
     void keep_absorption(const std::vector<OpticalSystem>& systems);
     void absorb(const TracePath<float>& path, const Bundle<float>& rays,
                 std::vector<float>& weights) const;
-    const float* table(std::size_t surface, bool forward, bool reflects) const;
+    std::size_t table(std::size_t surface, bool forward, bool reflects) const;
+    std::vector<const float*> tables_of(const TracePath<float>& path,
+                                        const std::vector<float>& values) const;
 };
 
 }  // namespace ghostlight

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/flare/color_raster.h"
+#include "core/flare/colored_samples.h"
 #include "core/flare/grid_light.h"
 
 namespace ghostlight {
@@ -32,11 +33,12 @@ std::vector<double> geometry_wavelengths_nm(const std::vector<SpectralSample>& s
     const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
     double mean = 0.0;
     for (const SpectralSample& s : samples) mean += s.weight * inverse_square(s.wavelength_nm);
-    const double inner = std::clamp((mean - middle) / half, -most_inner, most_inner);
-    std::vector<double> wavelengths;
-    for (const double at : {outer_node, inner, -outer_node})
-        wavelengths.push_back(1.0 / std::sqrt(middle + half * at));
-    return wavelengths;
+    mean = std::clamp(mean, middle - most_inner * half, middle + most_inner * half);
+    const double inner_nm = std::ranges::min_element(samples, {}, [&](const SpectralSample& s) {
+                                return std::abs(inverse_square(s.wavelength_nm) - mean);
+                            })->wavelength_nm;
+    return {1.0 / std::sqrt(middle + half * outer_node), inner_nm,
+            1.0 / std::sqrt(middle - half * outer_node)};
 }
 
 std::vector<double> node_shares(const std::vector<OpticalSystem>& geometry, double wavelength_nm) {
@@ -57,7 +59,7 @@ std::vector<double> FlareScene::interpolation(double wavelength_nm) const {
 
 FlareScene flare_scene(const Prescription& lens, const Spectrum& spectrum, int spectral_samples,
                        unsigned threads, CoatingModel model) {
-    const auto samples = sample(spectrum, spectral_samples);
+    const auto [samples, colors] = colored_samples(spectrum, spectral_samples);
     std::vector<double> weight_nm;
     for (const SpectralSample& s : samples) weight_nm.push_back(s.wavelength_nm);
     const std::optional<double> line = line_nm(spectrum);
@@ -68,7 +70,7 @@ FlareScene flare_scene(const Prescription& lens, const Spectrum& spectrum, int s
     FilmTables films(compiled(lens, weight_nm), threads, model, &geometry[main]);
     return {.spectrum = spectrum,
             .samples = samples,
-            .colors = sample_colors(spectrum, samples),
+            .colors = colors,
             .geometry = std::move(geometry),
             .main = main,
             .coating_model = model,

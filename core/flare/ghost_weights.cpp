@@ -63,48 +63,70 @@ PolarisedShare polarised_share(const FlareScene& scene, const TracePath<float>& 
     return result;
 }
 
+namespace {
+
+/// Of polarisation's effect where planes of incidence are one, what a ray has at the main
+/// wavelength: the cosine of twice the angle between those planes, as far as two matter.
+float share_of_polarisation(float ratio, float in_one_plane) {
+    constexpr float least = 1e-3F, most = 1.5F;
+    const float effect = in_one_plane - 1.0F;
+    return std::abs(effect) > least ? std::clamp((ratio - 1.0F) / effect, -most, most) : 1.0F;
+}
+
+}  // namespace
+
 ColorShare color_share(const FlareScene& scene, const GhostPath& path, const BeamFrame& beam,
                        const PolarisedShare& polarised) {
     ColorShare result;
     if (scene.is_gray() || polarised.ratio.empty()) return result;
     const std::size_t samples = scene.samples.size(), stride = scene.films.stride();
-    const std::size_t count = polarised.grid.half.size();
-    std::vector<float> main, own;
-    scene.films.weights(trace_path<float>(scene.system(), path), polarised.grid.half, main);
-    result.ratio.assign(count * samples, 0.0F);
+    const Bundle<float>& rays = polarised.grid.half;
+    std::vector<float> main, in_one_plane, own;
+    const auto trace = trace_path<float>(scene.system(), path);
+    scene.films.weights(trace, rays, main);
+    scene.films.polarisation(trace, rays, in_one_plane);
     std::vector<std::vector<double>> shares;
     for (const SpectralSample& s : scene.samples)
         shares.push_back(scene.interpolation(s.wavelength_nm));
+    const auto at_main =
+        static_cast<std::size_t>(std::ranges::find(scene.samples, scene.system().wavelength_nm,
+                                                   &SpectralSample::wavelength_nm) -
+                                 scene.samples.begin());
+    result.ratio.assign(rays.size() * samples, 0.0F);
     for (std::size_t g = 0; g < scene.geometry.size(); ++g) {
-        if (g == scene.main) {
-            for (std::size_t k = 0; k < count; ++k)
-                for (std::size_t w = 0; w < samples; ++w)
-                    result.ratio[k * samples + w] += static_cast<float>(shares[w][g]);
-            continue;
+        MirrorGrid* grid = g == scene.main ? nullptr : g == 0 ? &result.first : &result.last;
+        if (grid != nullptr) {
+            grid->box = polarised.grid.box;
+            grid->cells = polarised.grid.cells;
+            grid->half.keep_cosines = true;
+            const auto other = trace_path<float>(scene.geometry[g], path);
+            trace_mirrored(other, beam, Weights::none, *grid);
+            scene.films.weights(other, grid->half, own);
         }
-        MirrorGrid& grid = g == 0 ? result.first : result.last;
-        grid.box = polarised.grid.box;
-        grid.cells = polarised.grid.cells;
-        grid.half.keep_cosines = true;
-        const auto trace = trace_path<float>(scene.geometry[g], path);
-        trace_mirrored(trace, beam, Weights::polarised, grid);
-        scene.films.weights(trace, grid.half, own);
-        for (std::size_t k = 0; k < count; ++k) {
-            const float average = grid.half.weight_average[k];
-            const bool valid = grid.half.margin[k] >= 0.0F && average > 0.0F &&
-                               polarised.grid.half.margin[k] >= 0.0F;
+        for (std::size_t k = 0; k < rays.size(); ++k) {
             // Where a colour fails the main one stands for it.
-            const float turned = valid ? grid.half.weight[k] / average / polarised.ratio[k] : 1.0F;
+            const bool differs =
+                grid != nullptr && grid->half.margin[k] >= 0.0F && rays.margin[k] >= 0.0F;
             for (std::size_t w = 0; w < samples; ++w) {
                 const float there = main[k * stride + w];
-                const float angles = valid && there > 0.0F ? own[k * stride + w] / there : 1.0F;
+                const float angles = differs && there > 0.0F ? own[k * stride + w] / there : 1.0F;
                 result.ratio[k * samples + w] +=
                     static_cast<float>(shares[w][g]) *
-                    std::clamp(turned * angles, least_color_ratio, most_color_ratio);
+                    std::clamp(angles, least_color_ratio, most_color_ratio);
             }
         }
     }
-    for (float& ratio : result.ratio) ratio = std::max(ratio, 0.0F);
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+        const float share =
+            at_main < samples
+                ? share_of_polarisation(polarised.ratio[k], in_one_plane[k * stride + at_main])
+                : 0.0F;
+        for (std::size_t w = 0; w < samples; ++w) {
+            const float turned = 1.0F + share * (in_one_plane[k * stride + w] - 1.0F);
+            result.ratio[k * samples + w] *=
+                std::clamp(turned / polarised.ratio[k], least_color_ratio, most_color_ratio);
+        }
+    }
     return result;
 }
 

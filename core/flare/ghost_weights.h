@@ -20,8 +20,9 @@ PolarisedShare polarised_share(const FlareScene& scene, const TracePath<float>& 
                                const BeamFrame& beam, const PupilBox& box);
 
 /// What other wavelengths do to a path's weights beyond their own films: their rays meet the
-/// surfaces at other angles, and polarisation has another effect on them. Known from rays of the
-/// outer geometry wavelengths, and interpolated like positions.
+/// surfaces at other angles, known from rays of the outer geometry wavelengths and interpolated
+/// like positions; and polarisation has another effect on them, known from what s and p go through
+/// at each wavelength and from the effect at the main one.
 struct ColorShare {
     MirrorGrid first, last;    ///< of the outer wavelengths, traced on the grid of a PolarisedShare
     std::vector<float> ratio;  ///< a value a sample for each ray of that grid; empty: 1 everywhere

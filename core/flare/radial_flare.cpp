@@ -27,7 +27,6 @@ constexpr std::size_t search_cells = 128;
 constexpr int most_zooms = 8;
 /// The search is over when the rays that pass are this share of the line.
 constexpr std::size_t enough_passing = search_cells / 3;
-constexpr std::size_t cells_a_polarised = 8;  ///< polarisation is smooth: a ray in so many has it
 constexpr std::size_t compared_rays = 8;
 constexpr double band_px = 0.5;  ///< colours that land closer are drawn as one
 constexpr int most_bands = 16;
@@ -177,52 +176,26 @@ class RadialGhosts {
         return most / frame_.pitch_mm;
     }
 
-    /// At each ray the scene's samples: films at each geometry wavelength's own angles and with its
-    /// own polarisation, between them interpolated like positions.
-    std::vector<float> weights_of(const Lines& lines, PlannedGhost& planned) const {
+    /// At each ray the scene's samples: films at each geometry wavelength's own angles, between
+    /// them interpolated like positions. All planes of incidence are one.
+    std::vector<float> weights_of(const Lines& lines, const PlannedGhost& planned) const {
         const std::size_t samples = scene_.samples.size(), stride = scene_.films.stride();
         const std::size_t count = lines.rays.front().size();
-        std::vector<float> result(count * samples, 0.0F), own;
+        std::vector<float> result(count * samples, 0.0F), own, polarised;
         for (std::size_t g = 0; g < lines.rays.size(); ++g) {
-            const Bundle<float>& line = lines.rays[g];
-            scene_.films.weights(trace_path<float>(scene_.geometry[g], planned.path), line, own);
-            const std::vector<float> turned = polarised(lines, g, planned);
+            const auto path = trace_path<float>(scene_.geometry[g], planned.path);
+            scene_.films.weights(path, lines.rays[g], own);
+            if (scene_.coating_model == CoatingModel::exact)
+                scene_.films.polarisation(path, lines.rays[g], polarised);
+            else
+                polarised.assign(own.size(), 1.0F);
             for (std::size_t k = 0; k < count; ++k)
                 for (std::size_t w = 0; w < samples; ++w)
-                    result[k * samples + w] +=
-                        static_cast<float>(node_shares_[w][g]) * turned[k] * own[k * stride + w];
+                    result[k * samples + w] += static_cast<float>(node_shares_[w][g]) *
+                                               polarised[k * stride + w] * own[k * stride + w];
         }
         for (float& weight : result) weight = std::max(weight, 0.0F);
         return result;
-    }
-
-    /// What polarisation multiplies each ray's weight by.
-    std::vector<float> polarised(const Lines& lines, std::size_t g, PlannedGhost& planned) const {
-        const Bundle<float>& line = lines.rays[g];
-        std::vector<float> ratio(line.size(), 1.0F);
-        if (scene_.coating_model != CoatingModel::exact) return ratio;
-        Bundle<float> some;
-        for (std::size_t k = 0; k < line.size(); k += cells_a_polarised) {
-            some.u_mm.push_back(0.0F);
-            some.v_mm.push_back(line.v_mm[k]);
-        }
-        trace(planned.path, g, lines.in_double, Weights::polarised, some);
-        planned.rays += some.size();
-        std::vector<float> known;
-        for (std::size_t k = 0; k < some.size(); ++k) {
-            const bool valid = some.margin[k] >= 0.0F && some.weight_average[k] > 0.0F;
-            // A ray that fails takes its neighbour's; the one on the axis never does.
-            known.push_back(valid           ? some.weight[k] / some.weight_average[k]
-                            : known.empty() ? 1.0F
-                                            : known.back());
-        }
-        for (std::size_t k = 0; k < line.size(); ++k) {
-            const std::size_t before = std::min(k / cells_a_polarised, known.size() - 2);
-            const auto at = static_cast<float>(k - before * cells_a_polarised) /
-                            static_cast<float>(cells_a_polarised);
-            ratio[k] = std::lerp(known[before], known[before + 1], at);
-        }
-        return ratio;
     }
 
     void add_rings(const Lines& lines, const std::vector<float>& weights,
