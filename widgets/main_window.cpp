@@ -456,6 +456,7 @@ void MainWindow::show_scene() {
                            drawing_wavelength_nm(document_.scene()), selection_.ghosts());
         const double efl_mm = first_order(compile(lens, d_line_nm)).efl_mm;
         flare_->set_light(document_.scene().light().direction, efl_mm);
+        flare_->set_other_lights(other_lights(document_.scene()));
     } catch (const Error& error) {
         show_failure(error.what());
     }

@@ -33,7 +33,7 @@ constexpr std::array<const char*, FitParameterModel::column_count> tips = {
                       "Standard deviation of what the shop makes, about the start"),
     QT_TRANSLATE_NOOP("FitParameterModel", "What explains the photographs best"),
     QT_TRANSLATE_NOOP("FitParameterModel", "Standard error, widened for the misfit"),
-    QT_TRANSLATE_NOOP("FitParameterModel", "95 % interval"),
+    QT_TRANSLATE_NOOP("FitParameterModel", "95 % interval; P by the number's profile likelihood"),
     QT_TRANSLATE_NOOP(
         "FitParameterModel",
         "Determined: narrower than half its prior. Weak: narrower, but by less. Prior: the "
@@ -96,7 +96,8 @@ QVariant FitParameterModel::data(const QModelIndex& index, int role) const {
         if (index.column() == known && with_errors) {
             return color_of(number->knowledge);
         }
-        if (!row.varies || index.column() == unit_of) {
+        if (!row.varies || index.column() == unit_of ||
+            (index.column() == interval && !has_error)) {
             return current_palette().dim;
         }
         return {};
@@ -134,6 +135,18 @@ QVariant FitParameterModel::data(const QModelIndex& index, int role) const {
         case error:
             return has_error ? significant(number->standard_error, 2) : QString();
         case interval:
+            if (row.is_profiled && !has_error) {
+                return tr("profile");
+            }
+            if (has_error) {
+                const auto profile =
+                    std::ranges::find(profiles_, static_cast<std::size_t>(number - numbers_.data()),
+                                      &FittedProfile::number);
+                if (profile != profiles_.end()) {
+                    return QStringLiteral("%1 … %2 P")
+                        .arg(significant(profile->low, 4), significant(profile->high, 4));
+                }
+            }
             return has_error ? QStringLiteral("%1 … %2").arg(significant(number->low, 4),
                                                              significant(number->high, 4))
                              : QString();

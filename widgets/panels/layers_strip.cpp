@@ -91,7 +91,7 @@ void LayersStrip::add_row(LayerKind kind) {
     strip->addWidget(row.reset);
     strip->addWidget(row.alone);
     if (kind == LayerKind::ghosts) {
-        ringing_ = quiet_button(tr("ringing"),
+        ringing_ = quiet_button(tr("Ringing"),
                                 tr("Diffraction at the ghosts' rims, where its fringes are a pixel "
                                    "wide or more; at rest"),
                                 true);

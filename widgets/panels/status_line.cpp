@@ -75,9 +75,12 @@ void StatusLine::show_progress(double share) {
 
 void StatusLine::show_picture(const FlarePicture& picture, double upload_ms) {
     if (picture.is_first_look) {
-        picture_->set_text(tr("first look, *paraxial*"));
-        picture_->setToolTip(tr(
-            "Ghosts to first order, to see something at once; how far off they are is not known"));
+        const FlarePlan& plan = picture.image->plan;
+        picture_->set_text(tr("first look, off by about *%1 %*")
+                               .arg(significant(100.0 * plan.estimated_error(), 1)));
+        picture_->setToolTip(
+            tr("Each ghost from a few rays about its own centre ray, to see something at once. The "
+               "error is estimated from those rays; light that enters elsewhere is not in it."));
     } else {
         show_plan(picture.image->plan);
     }
