@@ -1,5 +1,7 @@
 #include "widgets/flare_overlay.h"
 
+#include <QCoreApplication>
+
 #include <QFont>
 #include <QFontMetricsF>
 #include <QObject>
@@ -17,6 +19,11 @@
 namespace ghostlight {
 
 namespace {
+
+/// Texts for people, as translators know them.
+struct FlareOverlay {
+    Q_DECLARE_TR_FUNCTIONS(FlareOverlay)
+};
 
 constexpr double ring_radius_px = 7.0;
 constexpr double other_radius_px = 5.0, other_opacity = 0.75;  // of lights that are not chosen
@@ -139,10 +146,10 @@ void paint_readout(QPainter& painter, const PictureFrame& frame, QSizeF view_px,
     }
     const Palette& colors = current_palette();
     const QString position = position_text(point.x, point.y);
-    const QString amount =
-        *irradiance > 0.0F
-            ? QObject::tr("irradiance %1 E₀").arg(significant(static_cast<double>(*irradiance), 2))
-            : QObject::tr("no ghost here");
+    const QString amount = *irradiance > 0.0F
+                               ? FlareOverlay::tr("irradiance %1 E₀")
+                                     .arg(significant(static_cast<double>(*irradiance), 2))
+                               : FlareOverlay::tr("no ghost here");
     QFont bold = painter.font();
     bold.setWeight(QFont::DemiBold);
     const QFontMetricsF bold_metrics(bold), metrics(painter.font());
@@ -213,7 +220,7 @@ void paint_false_color_scale(QPainter& painter, QSizeF view_px,
     }
     painter.setPen(dark_palette().text);
     painter.drawText(QRectF(bar.left() - 8.0, bar.top() - 24.0, 60.0, 16.0), Qt::AlignLeft,
-                     QObject::tr("E / E₀"));
+                     FlareOverlay::tr("E / E₀"));
     const int low = static_cast<int>(std::lround(decades.low));
     const int high = static_cast<int>(std::lround(decades.high));
     for (int decade = low; decade <= high; ++decade) {

@@ -23,11 +23,12 @@ void correlate(const RowMatrix& from, int width, int height, bool along_x, RowMa
 }  // namespace
 
 FitInformation information(const FitEvaluator& evaluator, FitLoss loss, double loss_scale,
-                           double ghost_error) {
+                           double ghost_error, const std::stop_token& stop) {
     const auto count = static_cast<Eigen::Index>(evaluator.layout().count());
     FitInformation info{Eigen::MatrixXd::Identity(count, count),
                         Eigen::MatrixXd::Identity(count, count)};
     const auto rho = make_loss(loss, loss_scale);
+    if (evaluator.stopped()) return info;
     auto& views = const_cast<FitEvaluator&>(evaluator).views();
     auto& weights = const_cast<FitEvaluator&>(evaluator).weights();
     for (std::size_t i = 0; i < views.size(); ++i) {
@@ -59,8 +60,10 @@ FitInformation information(const FitEvaluator& evaluator, FitLoss loss, double l
             correlate(once, width, height, false, twice);
             info.spread.noalias() += j.transpose() * twice;
             // Each ghost's light may be off as a whole.
-            if (ghost_error <= 0.0) continue;
+            const double off = std::hypot(ghost_error, view.curve_error);
+            if (off <= 0.0) continue;
             for (const GhostBasis& basis : view.bases) {
+                if (stop.stop_requested()) return info;
                 std::vector<double> coefficients;
                 weights.coefficients(basis, coefficients, nullptr);
                 Eigen::VectorXd moved = Eigen::VectorXd::Zero(count);
@@ -77,7 +80,7 @@ FitInformation information(const FitEvaluator& evaluator, FitLoss loss, double l
                                               view.scales[s].sigma(evaluator.model(i)[3 * s + c]);
                         moved += change * j.row(static_cast<Eigen::Index>(s)).transpose();
                     }
-                info.spread.noalias() += ghost_error * ghost_error * moved * moved.transpose();
+                info.spread.noalias() += off * off * moved * moved.transpose();
             }
         }
     }
@@ -109,7 +112,8 @@ double scatter_of_difference(const FitEvaluator& evaluator,
                 for (std::size_t c = 0; c < 3 && view.data.used[s]; ++c)
                     along[c] += difference[i][3 * s + c] * evaluator.gain(i, c) * *one.at(s, c) /
                                 view.scales[s].sigma(evaluator.model(i)[3 * s + c]);
-            for (const double each : along) scatter += ghost_error * ghost_error * each * each;
+            const double off = std::hypot(ghost_error, view.curve_error);
+            for (const double each : along) scatter += off * off * each * each;
         }
     }
     return size > 0.0 ? std::max(1.0, scatter / size) : 1.0;

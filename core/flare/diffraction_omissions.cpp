@@ -80,12 +80,9 @@ Omission starburst(const FlareScene& scene, const FlareRequest& request) {
 
 }  // namespace
 
-double fringes_change(const GhostSpot& moments, double width_mm) {
-    // Half axes are twice the root of the second moments along them.
-    const double mean = 0.5 * (moments.xx_mm2 + moments.yy_mm2);
-    const double off = std::hypot(0.5 * (moments.xx_mm2 - moments.yy_mm2), moments.xy_mm2);
-    const double a = 2.0 * std::sqrt(std::max(0.0, mean + off));
-    const double b = 2.0 * std::sqrt(std::max(0.0, mean - off));
+double fringes_change(const GhostSpot& spot, double width_mm) {
+    const auto [least, most] = spot.sigmas_mm();
+    const double a = 2.0 * most, b = 2.0 * least;  // half axes of an even ellipse
     if (!(a * b > 0.0)) return 2.0;
     const double rim_over_area = std::sqrt(2.0 * (a * a + b * b)) / (a * b);
     return rim_over_area * width_mm / std::numbers::pi;

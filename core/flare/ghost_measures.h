@@ -14,6 +14,13 @@ bool is_within(const MeshNodes& nodes, std::size_t node, double least);
 /// Light beyond the rim that a bend or a shift may be measured on, in units of a clearance.
 inline constexpr double near_rim = -0.15;
 
+/// Of the bend times the contrast: only its part across an edge counts, and most of the contrast
+/// is at rims, where chords follow the bend. Calibrated on all bundled lenses, see
+/// docs/benchmarks.md.
+inline constexpr double grid_factor = 0.3;
+/// Of a chord's height: unbiased chords are off by a quarter of it on average.
+inline constexpr double rim_factor = 0.25;
+
 /// How far a grid's nodes are from the means of their neighbours, RMS over what passes and lands
 /// near the frame: what a grid twice as coarse gets wrong, hence four times what this one does.
 double bend_px(const MeshNodes& nodes, const PixelFrame& frame);

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "core/error.h"
+#include "core/flare/dirt_statistics.h"
 #include "core/optics/trace.h"
 
 namespace ghostlight {
@@ -84,10 +85,7 @@ void add_dust(const StopDirt& dirt, double a, Painter& painter) {
     // Specks thrown at random leave exp(−Σ their areas / the circle's) of it free.
     const double small = dirt.dust_smallest_mm, large = dirt.dust_largest_mm;
     const double wanted = -std::log1p(-dirt.dust_coverage) * pi * a * a;
-    const double spread = std::log(large / small);
-    const double mean_square =
-        spread > 0.0 ? (large * large - small * small) / (2.0 * spread) : small * small;
-    const double count = wanted / (0.25 * pi * mean_square);
+    const double count = expected_specks(dirt, a);
     if (count > most_specks)
         throw Error({.problem = "more specks of dust than can be drawn",
                      .file = {},

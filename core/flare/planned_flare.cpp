@@ -9,6 +9,7 @@
 #include "core/flare/draw_picture.h"
 #include "core/flare/planned_ghost.h"
 #include "core/flare/probe_all.h"
+#include "core/flare/radial_flare.h"
 #include "core/flare/ringing.h"
 #include "core/parallel.h"
 
@@ -35,6 +36,14 @@ std::vector<Batch> batches_of(const GhostPlanner& planner, const std::vector<Pro
         ++batches.back().count;
     }
     return batches;
+}
+
+/// What was needed to draw it.
+void release(ProbedGhost& ghost) {
+    ghost.grid = {};
+    ghost.weights = {};
+    ghost.colors = {};
+    ghost.polarised = {};
 }
 
 template <int C>
@@ -83,6 +92,7 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
                                                                     : drawn[k].mesh.flux_mm2[C - 1];
             image.cells += drawn[k].mesh.cells;
             image.rays += planned.rays;
+            release(probed[batch.first + k]);
         }
     }
     if (request.ringing) {
@@ -105,6 +115,7 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
 
 std::optional<FlareImage> render_planned(const FlareScene& scene, const FlareRequest& request,
                                          std::stop_token stop) {
+    if (is_radial(scene, request)) return render_radial(scene, request, std::move(stop));
     return scene.is_gray() ? render<gray_channels>(scene, request, std::move(stop))
                            : render<color_channels>(scene, request, std::move(stop));
 }

@@ -277,7 +277,7 @@ void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
     if (rough && cells != probe_cells)
         draw_grids(geometry, main,
                    ghost_weights(scene_, trace_path<float>(scene_.system(), planned.path), main,
-                                 ghost.polarised),
+                                 ghost.polarised, ghost.colors),
                    bands, split, ghost, mesh);
     else
         draw_grids(geometry, probe, ghost.weights, bands, split, ghost, mesh);
@@ -317,7 +317,7 @@ GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
     }
     if (own_weights)
         fine_weights = ghost_weights(scene_, trace_path<float>(scene_.system(), planned.path), fine,
-                                     ghost.polarised);
+                                     ghost.polarised, ghost.colors);
     const MirrorGrid& weight_grid = own_weights ? fine : probe;
     const std::vector<float>& weights = own_weights ? fine_weights : ghost.weights;
     auto light = [&](int band, int bands) {

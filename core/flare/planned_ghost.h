@@ -33,6 +33,7 @@ struct ProbedGhost {
     MirrorGrid grid;             ///< the probe, at the main geometry wavelength, with its cosines
     std::size_t passing = 0;     ///< of its nodes
     PolarisedShare polarised;    ///< over the box
+    std::vector<float> colors;   ///< ColorShare::ratio
     std::vector<float> weights;  ///< of the probe's half grid, FilmTables::stride() a ray
     /// Single precision moves its rays by more than is_ill_conditioned() allows (path_stability.h):
     /// it is traced in double.
@@ -107,8 +108,9 @@ class GhostPlanner {
                           MirrorGrid& grid) const;
     MirrorGrid traced(const ProbedGhost& ghost, std::size_t node, int cells,
                       bool keep_cosines = false, Weights weights = Weights::none) const;
-    void look(const MirrorGrid& first, const MeshNodes& nodes, ProbedGhost& ghost) const;
-    double shift_of_colors_px(const ProbedGhost& ghost) const;
+    void look(const MirrorGrid& first, const MeshNodes& nodes, const ColorShare& colors,
+              ProbedGhost& ghost) const;
+    double shift_of_colors_px(const ProbedGhost& ghost, const ColorShare& colors) const;
     template <int C>
     void draw_grids(const std::vector<const MirrorGrid*>& geometry, const MirrorGrid& weight_grid,
                     const std::vector<float>& weights, int bands, bool split,
