@@ -23,8 +23,6 @@ double number(const ceres::Jet<T, N>& x) {
     return x.a;
 }
 
-/// Of a sample: points this close leave aliases of the spline below 1e-3.
-inline constexpr double point_spacing = 0.45;
 /// Beyond the frame's edge a footprint still reaches in, samples.
 inline constexpr double beyond_edge = spline_reach + 0.5;
 
@@ -112,15 +110,16 @@ struct SensorBounds {
 };
 
 /// A polygon, cut until its parts are small against a sample: take(PieceOf<S>) for each that
-/// matters.
+/// matters. `spacing`: of points, samples.
 template <class S, class Take>
-void cut(const BundlePolygon<S>& polygon, const PixelFrame& frame, int depth, const Take& take) {
+void cut(const BundlePolygon<S>& polygon, const PixelFrame& frame, double spacing, int depth,
+         const Take& take) {
     SensorBounds bounds;
     for (std::size_t k = 0; k < static_cast<std::size_t>(polygon.count); ++k)
         bounds.add(number(polygon.corners[k].x), number(polygon.corners[k].y));
     if (!bounds.reaches(frame)) return;
     const double wide = bounds.x1 - bounds.x0, high = bounds.y1 - bounds.y0;
-    if (std::max(wide, high) <= point_spacing * frame.pitch_mm || depth == 0) {
+    if (std::max(wide, high) <= spacing * frame.pitch_mm || depth == 0) {
         const PieceOf<S> piece = middle_of(polygon);
         if (matters(piece, frame)) take(piece);
         return;
@@ -129,7 +128,7 @@ void cut(const BundlePolygon<S>& polygon, const PixelFrame& frame, int depth, co
     const double middle = along_x ? 0.5 * (bounds.x0 + bounds.x1) : 0.5 * (bounds.y0 + bounds.y1);
     for (const double side : {1.0, -1.0})
         if (const auto half = half_of(polygon, along_x, middle, side); half.count >= 3)
-            cut(half, frame, depth - 1, take);
+            cut(half, frame, spacing, depth - 1, take);
 }
 
 /// What a cell of a grid is: dark, passed by all of its light, or cut by an edge.
@@ -169,7 +168,7 @@ void for_each_cell(const SplitGrid<float>& grid, const Visit& visit) {
 /// `field` gives x(node), y(node) and clearance(k, node) on the scalar S. Calls take(PieceOf<S>).
 template <class S, class Field, class Take>
 void for_each_point(const BundleGrid<float>& grid, const Field& field, int cell,
-                    const PixelFrame& frame, const Take& take) {
+                    const PixelFrame& frame, double spacing, const Take& take) {
     constexpr int most_points = 24;  ///< across a cell
     constexpr int most_halvings = 8;
     const CellKind kind = cell_kind(grid, cell);
@@ -215,7 +214,7 @@ void for_each_point(const BundleGrid<float>& grid, const Field& field, int cell,
                 corner.x = share[0] * x[0] + share[1] * x[1] + share[2] * x[2];
                 corner.y = share[0] * y[0] + share[1] * y[1] + share[2] * y[2];
             }
-            cut(polygon, frame, most_halvings, take);
+            cut(polygon, frame, spacing, most_halvings, take);
         }
         return;
     }
@@ -234,7 +233,7 @@ void for_each_point(const BundleGrid<float>& grid, const Field& field, int cell,
     auto points = [&](int p, int q, int r, int s) {
         const double length =
             std::max(std::hypot(x[q] - x[p], y[q] - y[p]), std::hypot(x[s] - x[r], y[s] - y[r]));
-        return std::clamp(static_cast<int>(std::ceil(length / (point_spacing * frame.pitch_mm))), 1,
+        return std::clamp(static_cast<int>(std::ceil(length / (spacing * frame.pitch_mm))), 1,
                           most_points);
     };
     const int along_u = points(0, 1, 2, 3), along_v = points(0, 2, 1, 3);

@@ -12,6 +12,8 @@ namespace {
 /// Distances from the fit in standard errors, to either side.
 constexpr std::array<double, 6> steps = {0.5, 1.0, 1.5, 2.0, 2.5, 3.0};
 constexpr double chi2_of_95_percent = 3.841;
+/// Of a sample, as the errors have it: how well a ghost's place is known.
+constexpr double place_error = 0.02;
 constexpr int profile_iterations = 10, bootstrap_iterations = 8;
 
 /// Where a curve of √χ² crosses the 95 % line, going outwards; the last value where it does not.
@@ -146,12 +148,24 @@ void FitRun::bootstrap(FitReport& report) {
             FitView& view = views_[i];
             std::vector<double> light = models[i];
             const double off = std::hypot(request_.ghost_error, view.curve_error);
-            for (const ModelPicture& ghost : ghosts[i])
+            const auto width = static_cast<std::size_t>(view.data.frame.width_px),
+                       height = static_cast<std::size_t>(view.data.frame.height_px);
+            for (const ModelPicture& ghost : ghosts[i]) {
+                const double by_x = place_error * normal(random),
+                             by_y = place_error * normal(random);
                 for (std::size_t c = 0; c < 3; ++c) {
-                    const double by = off * normal(random) * evaluator_->gain(i, c);
-                    for (std::size_t s = 0; s < view.data.samples(); ++s)
-                        light[3 * s + c] += by * *ghost.at(s, c);
+                    const double by = off * normal(random), gain = evaluator_->gain(i, c);
+                    for (std::size_t y = 1; y + 1 < height; ++y)
+                        for (std::size_t x = 1; x + 1 < width; ++x) {
+                            const std::size_t s = y * width + x;
+                            light[3 * s + c] +=
+                                gain *
+                                (by * *ghost.at(s, c) +
+                                 0.5 * by_x * (*ghost.at(s + 1, c) - *ghost.at(s - 1, c)) +
+                                 0.5 * by_y * (*ghost.at(s + width, c) - *ghost.at(s - width, c)));
+                        }
                 }
+            }
             for (std::size_t c = 0; c < 3; ++c) {
                 const auto noise = sample_noise(view.data.frame, random);
                 for (std::size_t s = 0; s < view.data.samples(); ++s) {

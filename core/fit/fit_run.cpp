@@ -14,7 +14,7 @@ namespace {
 
 /// Geometry is linearised again until it stays, but not more often than this; places, which are
 /// known beforehand to a few priors, stay after one.
-constexpr int most_linearisations = 8, first_linearisations = 1;
+constexpr int most_linearisations = 12, first_linearisations = 1;
 
 /// Of a sample: how well the model's quadrature places rims and caustics.
 constexpr double rim_place = 0.02;

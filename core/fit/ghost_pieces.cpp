@@ -150,7 +150,8 @@ GhostGrid found_grid(const FitScene& scene, const GhostPath& path, const BeamFra
 
 /// The points themselves, u and v in mm.
 template <class Take>
-void points_of(const SplitGrid<float>& grid, const PixelFrame& pixels, const Take& take) {
+void points_of(const SplitGrid<float>& grid, const PixelFrame& pixels, double spacing,
+               const Take& take) {
     struct Values {
         const RayField<float>& field;
         double x(std::size_t node) const { return static_cast<double>(field.rays.x_mm[node]); }
@@ -160,7 +161,7 @@ void points_of(const SplitGrid<float>& grid, const PixelFrame& pixels, const Tak
         }
     };
     for_each_cell(grid, [&](const BundleGrid<float>& on, int cell) {
-        for_each_point<double>(on, Values{on.field}, cell, pixels, take);
+        for_each_point<double>(on, Values{on.field}, cell, pixels, spacing, take);
     });
 }
 
@@ -210,7 +211,8 @@ GhostPieces traced_pieces(const FitScene& scene, const GhostPath& path, const Be
         const SplitGrid<float> rays = traced_grid(scene, node, path, frame, pieces.grid);
         pieces.traced += rays.rays();
         auto& list = pieces.at_node.emplace_back();
-        points_of(rays, pixels, [&](const BundlePiece& piece) { list.push_back(piece); });
+        points_of(rays, pixels, pieces.grid.point_spacing,
+                  [&](const BundlePiece& piece) { list.push_back(piece); });
     }
     if (with_strata) set_strata(pieces.at_node, pieces.grid);
     if (pieces.empty()) {

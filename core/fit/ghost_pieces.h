@@ -16,6 +16,8 @@ struct GhostGrid {
     PupilBox box;
     int cells = 0;                   ///< across the box; 0: nothing lands on the frame
     std::vector<std::size_t> nodes;  ///< of the scene's geometry: one where colours fall together
+    /// Of points, samples: so close they leave aliases of the spline below 1e-3.
+    double point_spacing = 0.45;
     /// u, v from −1 to 1 over the part of the pupil that matters.
     double u_half_mm = 1.0, v_mid_mm = 0.0, v_half_mm = 1.0;
     std::vector<std::array<double, 2>> ray_places;  ///< u, v in mm across the beam, for FilmRays

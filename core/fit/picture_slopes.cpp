@@ -295,7 +295,7 @@ void add_batch(const FitScene& scene, const GhostBasis& basis, const LightDirect
         };
         for_each_cell(grid, [&](const BundleGrid<float>& cells, int cell) {
             const SlopedField<N> field{cells.field, slopes[NodesUsed::index(grid, cells)]};
-            for_each_point<Jet>(cells, field, cell, frame, take);
+            for_each_point<Jet>(cells, field, cell, frame, on.point_spacing, take);
         });
     }
 }

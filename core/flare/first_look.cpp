@@ -10,6 +10,7 @@
 #include "core/flare/color_mesh.h"
 #include "core/flare/draw_picture.h"
 #include "core/flare/ghost_measures.h"
+#include "core/flare/ghost_spot.h"
 #include "core/flare/ghost_weights.h"
 #include "core/flare/grid_light.h"
 #include "core/flare/node_placement.h"
@@ -65,15 +66,14 @@ class FirstLook {
         planned.cells = look_cells;
         planned.rays = grid.half.size() + stencil_rays;
         MeshNodes nodes = placement_.place(grid);
-        const std::vector<float> light =
-            ray_light<C>(scene_, grid, ghost_weights(scene_, path, grid, {}, {}), shares);
+        const std::vector<float> light = ray_light<C>(scene_, grid, weights_of(path, grid), shares);
         std::vector<float> colors;
         interpolate(grid, light, C, look_cells, colors);
         for (std::size_t k = C - 1; k < colors.size(); k += C) nodes.weights.push_back(colors[k]);
         const FrameLight on_frame = light_on_frame(nodes, frame);
         planned.flux_mm2 = on_frame.flux_mm2;
         planned.whole_flux_mm2 = on_frame.whole_flux_mm2;
-        planned.moments = moments_of(nodes, frame);
+        planned.spot = spot_of(nodes, gray_channels, frame);
         if (!on_frame.passes || !on_frame.near_frame) {
             planned.fate = on_frame.passes ? GhostFate::off_sensor : GhostFate::nothing_passes;
             planned.flux_mm2 = 0.0;
@@ -94,6 +94,19 @@ class FirstLook {
     BeamFrame beam_;
     PupilBox entrance_;
     double slope_, cos_field_;
+
+    /// With polarisation as if all planes of incidence were one, as they are in the meridian.
+    std::vector<float> weights_of(const TracePath<float>& path, const MirrorGrid& grid) const {
+        std::vector<float> weights = ghost_weights(scene_, path, grid, {}, {});
+        if (scene_.coating_model != CoatingModel::exact) return weights;
+        std::vector<float> polarised;
+        scene_.films.polarisation(path, grid.half, polarised);
+        const std::size_t stride = scene_.films.stride();
+        for (std::size_t k = 0; k < grid.half.size(); ++k)
+            for (std::size_t w = 0; w < stride && grid.half.margin[k] >= 0.0F; ++w)
+                weights[k * stride + w] *= polarised[k * stride + w];
+        return weights;
+    }
 
     /// The level, and the error with it.
     void judge(double off_px, double contrast, double slopes, PlannedGhost& planned) const {

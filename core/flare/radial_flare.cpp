@@ -28,6 +28,7 @@ constexpr int most_zooms = 8;
 /// The search is over when the rays that pass are this share of the line.
 constexpr std::size_t enough_passing = search_cells / 3;
 constexpr std::size_t compared_rays = 8;
+constexpr int most_parts = 6;    ///< rings between two rays
 constexpr double band_px = 0.5;  ///< colours that land closer are drawn as one
 constexpr int most_bands = 16;
 /// Of the steps from ring to ring: each ring is even, its light at most half a ring off.
@@ -227,11 +228,10 @@ class RadialGhosts {
             for (std::size_t c = 0; c < C; ++c) n.light[c] = std::lerp(a.light[c], b.light[c], t);
             return n;
         };
-        Node last = node(0);
-        for (std::size_t k = 1; k < lines.rays.front().size(); ++k) {
-            Node next = node(k);
-            Node a = last, b = next;
-            last = next;
+        std::vector<Node> nodes;
+        for (std::size_t k = 0; k < lines.rays.front().size(); ++k) nodes.push_back(node(k));
+        for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+            Node a = nodes[k], b = nodes[k + 1];
             // Where a ray fails, its place and its light mean nothing.
             if (a.margin < 0.0 && b.margin < 0.0) continue;
             if (a.margin < 0.0) std::tie(a.y_px, a.light) = std::tie(b.y_px, b.light);
@@ -243,7 +243,31 @@ class RadialGhosts {
                 if (fa < 0.0 && fb >= 0.0) from = std::max(from, fa / (fa - fb));
                 if (fa >= 0.0 && fb < 0.0) to = std::min(to, fa / (fa - fb));
             }
-            if (from < to) add_ring(between(a, b, from), between(a, b, to), rings, planned);
+            if (!(from < to)) continue;
+            // Places by a cubic through four rays: rings of about a pixel follow it.
+            const Node* before = k > 0 ? &nodes[k - 1] : nullptr;
+            const Node* after = k + 2 < nodes.size() ? &nodes[k + 2] : nullptr;
+            const bool smooth = before != nullptr && after != nullptr && before->margin >= 0.0 &&
+                                a.margin >= 0.0 && b.margin >= 0.0 && after->margin >= 0.0;
+            const auto at_share = [&](double t) {
+                Node n = between(a, b, t);
+                if (smooth) {
+                    const double bend_a = before->y_px - 2.0 * a.y_px + b.y_px;
+                    const double bend_b = a.y_px - 2.0 * b.y_px + after->y_px;
+                    n.y_px -= t * (1.0 - t) / 6.0 * ((2.0 - t) * bend_a + (1.0 + t) * bend_b);
+                }
+                return n;
+            };
+            const int parts =
+                smooth ? std::clamp(static_cast<int>(std::ceil(std::abs(b.y_px - a.y_px))), 1,
+                                    most_parts)
+                       : 1;
+            Node inner = at_share(from);
+            for (int part = 1; part <= parts; ++part) {
+                const Node outer = at_share(std::lerp(from, to, static_cast<double>(part) / parts));
+                add_ring(inner, outer, rings, planned);
+                inner = outer;
+            }
         }
     }
 
@@ -256,7 +280,7 @@ class RadialGhosts {
             flux[c] = area_mm2 * 0.5 * (a.light[c] + b.light[c]) / frame_.pixel_area_mm2();
         const double low = std::abs(a.y_px), high = std::abs(b.y_px);
         planned.whole_flux_mm2 += flux[C - 1] * frame_.pixel_area_mm2();
-        planned.moments.xx_mm2 += flux[C - 1] * 0.25 * (low * low + high * high);
+        planned.spot.xx_mm2 += flux[C - 1] * 0.25 * (low * low + high * high);
         if (a.y_px * b.y_px >= 0.0) {
             rings.push_back({low, high, flux});
             return;
@@ -297,14 +321,14 @@ class RadialGhosts {
             if (k == 0 || breadth < 1.0) continue;
             const auto [before, its_area] = density(rings[k - 1]);
             if (!(its_area > 0.0)) continue;
-            planned.error_mm2 +=
-                std::min(share * rings[k].flux[C - 1],
-                         share * step_share * 0.5 * area * std::abs(value - before)) *
-                pixel_mm2;
+            planned.error_mm2 += std::min(share * rings[k].flux[C - 1],
+                                          share * step_share * area * std::abs(value - before)) *
+                                 pixel_mm2;
         }
         if (planned.whole_flux_mm2 > 0.0)
-            planned.moments.xx_mm2 *= pixel_mm2 * pixel_mm2 / planned.whole_flux_mm2;
-        planned.moments.yy_mm2 = planned.moments.xx_mm2;
+            planned.spot.xx_mm2 *= pixel_mm2 * pixel_mm2 / planned.whole_flux_mm2;
+        planned.spot.yy_mm2 = planned.spot.xx_mm2;
+        planned.spot.flux_mm2.fill(planned.whole_flux_mm2);
         planned.allowance_mm2 = planned.error_mm2;
         if (!(planned.whole_flux_mm2 > 0.0))
             planned.fate = GhostFate::nothing_passes;
@@ -408,7 +432,8 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
 bool is_radial(const FlareScene& scene, const FlareRequest& request) {
     const StopMask& mask = scene.system().stop_mask;
     return request.light.field_deg == 0.0 && mask.blades == 0 && !mask.picture &&
-           !scene.system().sensor_face && !request.ringing && request.economies == PlanEconomies{};
+           !scene.system().sensor_face && !request.ringing && request.folded_share == 0.0 &&
+           request.economies == PlanEconomies{};
 }
 
 std::optional<FlareImage> render_radial(const FlareScene& scene, const FlareRequest& request,

@@ -46,8 +46,8 @@ double least_cpu_ms(Work work) {
 
 void print_growth() {
     fmt::print("Trains of lenses, 1280 x 720, tolerance 4 %, one wavelength, quick search\n");
-    fmt::print("{:>10}{:>10}{:>12}{:>14}{:>10}\n", "surfaces", "ghosts", "cpu, ms", "ms a ghost",
-               "drawn");
+    fmt::print("{:>10}{:>10}{:>12}{:>14}{:>10}{:>18}{:>14}\n", "surfaces", "ghosts", "cpu, ms",
+               "ms a ghost", "drawn", "surfaces a path", "us a surface");
     for (const int surfaces : {10, 20, 40, 80}) {
         const FlareScene scene = flare_scene(train(surfaces), Monochromatic{});
         FlareRequest request;
@@ -58,8 +58,13 @@ void print_growth() {
         std::size_t drawn = 0;
         const double ms = least_cpu_ms(
             [&] { drawn = render_planned(scene, request)->plan.count(GhostFate::drawn); });
-        fmt::print("{:>10}{:>10}{:>12.1f}{:>14.4f}{:>10}\n", surfaces, scene.ghosts.size(), ms,
-                   ms / static_cast<double>(scene.ghosts.size()), drawn);
+        std::size_t met = 0;
+        for (const GhostPath& path : scene.ghosts)
+            met += events(path, scene.system().surfaces.size()).size();
+        const auto ghosts = static_cast<double>(scene.ghosts.size());
+        fmt::print("{:>10}{:>10}{:>12.1f}{:>14.4f}{:>10}{:>18.1f}{:>14.3f}\n", surfaces,
+                   scene.ghosts.size(), ms, ms / ghosts, drawn, static_cast<double>(met) / ghosts,
+                   1e3 * ms / static_cast<double>(met));
     }
 }
 
