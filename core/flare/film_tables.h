@@ -24,7 +24,7 @@ class FilmTables {
     FilmTables(const std::vector<OpticalSystem>& systems, unsigned threads,
                CoatingModel model = CoatingModel::exact);
 
-    /// Wavelengths, padded; those that were given come first.
+    /// Wavelengths, more than one padded; those that were given come first.
     std::size_t stride() const { return stride_; }
 
     /// Weights of every ray of a bundle that kept its cosines, `stride()` values a ray. What glass
