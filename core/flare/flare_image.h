@@ -31,6 +31,7 @@ struct PlanEconomies {
     bool probed_light = true;   ///< light is interpolated between few rays where it is smooth
     bool split_edges = true;    ///< cells beside failing rays get grids of their own
     bool merged_colors = true;  ///< wavelengths that land together are drawn as one
+    bool half_beams = true;     ///< of each beam one half is traced: the other mirrors it
     bool operator==(const PlanEconomies&) const = default;
 };
 

@@ -64,6 +64,12 @@ std::vector<float> ghost_weights(const FlareScene& scene, const TracePath<float>
                                  const MirrorGrid& grid, const PolarisedShare& polarised) {
     std::vector<float> weights;
     scene.films.weights(path, grid.half, weights);
+    if (grid.other.size() > 0) {
+        std::vector<float> others;
+        scene.films.weights(path, grid.other, others);
+        for (std::size_t k = 0; k < weights.size(); ++k)
+            weights[k] = 0.5F * (weights[k] + others[k]);
+    }
     const std::size_t stride = scene.films.stride();
     const Bundle<float>& rays = grid.half;
     if (grid.is_polarised) {

@@ -267,7 +267,7 @@ void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
                     traced(ghost, g, cells, rough && g == scene_.main,
                            polarised && g == scene_.main ? Weights::polarised : Weights::none));
         }
-    for (const MirrorGrid& grid : finer) planned.rays += grid.half.size();
+    for (const MirrorGrid& grid : finer) planned.rays += grid.half.size() + grid.other.size();
     auto next = finer.begin();
     for (std::size_t g = 0; g < scene_.geometry.size(); ++g)
         if (bands > 1 || g == scene_.main)
@@ -312,7 +312,7 @@ GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
     if (planned.cells != probe_cells && (own_weights || chosen.split)) {
         fine = traced(ghost, scene_.main, planned.cells, own_weights,
                       chosen.polarised ? Weights::polarised : Weights::none);
-        planned.rays += fine.half.size();
+        planned.rays += fine.half.size() + fine.other.size();
     }
     if (own_weights)
         fine_weights = ghost_weights(scene_, trace_path<float>(scene_.system(), planned.path), fine,

@@ -98,6 +98,8 @@ class GhostPlanner {
     void trace(const ProbedGhost& ghost, std::size_t node, Weights weights,
                Bundle<float>& rays) const;
     void mind_rounding(ProbedGhost& ghost) const;
+    void trace_other_half(const ProbedGhost& ghost, std::size_t node, Weights weights,
+                          MirrorGrid& grid) const;
     MirrorGrid traced(const ProbedGhost& ghost, std::size_t node, int cells,
                       bool keep_cosines = false, Weights weights = Weights::none) const;
     void look(const MirrorGrid& first, const MeshNodes& nodes, ProbedGhost& ghost) const;

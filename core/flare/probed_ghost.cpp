@@ -57,7 +57,15 @@ MirrorGrid GhostPlanner::traced(const ProbedGhost& ghost, std::size_t node, int 
     lay_mirrored(grid);
     trace(ghost, node, weights, grid.half);
     grid.is_polarised = weights == Weights::polarised;
+    if (!economies_.half_beams) trace_other_half(ghost, node, weights, grid);
     return grid;
+}
+
+void GhostPlanner::trace_other_half(const ProbedGhost& ghost, std::size_t node, Weights weights,
+                                    MirrorGrid& grid) const {
+    lay_other_half(grid);
+    trace(ghost, node, weights, grid.other);
+    take_mean_of_halves(grid);
 }
 
 /// Compares some of the probe's rays with double precision; where they differ by what shows, the
@@ -101,6 +109,10 @@ void GhostPlanner::weigh(ProbedGhost& ghost) const {
     if (planned.fate != GhostFate::drawn) return;
     const auto trace = trace_path<float>(scene_.system(), planned.path);
     mind_rounding(ghost);
+    if (!economies_.half_beams) {
+        trace_other_half(ghost, scene_.main, Weights::none, ghost.grid);
+        planned.rays += ghost.grid.other.size();
+    }
     ghost.polarised = polarised_share(scene_, trace, beam_, planned.box);
     ghost.weights = ghost_weights(scene_, trace, ghost.grid, ghost.polarised);
     planned.rays += ghost.polarised.ratio.size();
@@ -108,7 +120,7 @@ void GhostPlanner::weigh(ProbedGhost& ghost) const {
     MirrorGrid closer;
     if (ghost.passing < few_passing) {
         closer = traced(ghost, scene_.main, close_cells);
-        planned.rays += closer.half.size();
+        planned.rays += closer.half.size() + closer.other.size();
     }
     const MirrorGrid& first = closer.cells > 0 ? closer : ghost.grid;
     MeshNodes nodes = placement_.place(first);
