@@ -17,7 +17,8 @@ struct PolarisedShare {
     double error = 0.0;        ///< estimated, of interpolating it: a share of the light
 };
 PolarisedShare polarised_share(const FlareScene& scene, const TracePath<float>& path,
-                               const BeamFrame& beam, const PupilBox& box);
+                               const BeamFrame& beam, const PupilBox& box,
+                               double allowed_error = 0.0);
 
 /// Weights of a half grid that kept its cosines, at the scene's samples, FilmTables::stride() a
 /// ray, polarisation included (by the grid's own rays, if they are traced so); failed rays take

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/flare/color_mesh.h"
@@ -30,17 +31,19 @@ struct FirstErrors {
 struct ProbedGhost {
     PlannedGhost planned;
     FirstErrors errors;
-    MirrorGrid grid;             ///< the probe, at the main geometry wavelength, with its cosines
-    std::size_t passing = 0;     ///< of its nodes
-    PolarisedShare polarised;    ///< over the box
+    MirrorGrid grid;           ///< the probe, at the main geometry wavelength, with its cosines
+    std::size_t passing = 0;   ///< of its nodes
+    PolarisedShare polarised;  ///< over the box
+    /// What a plan nearby knew, where its box still holds.
+    std::optional<PlannedGhost> nearby;
     std::vector<float> weights;  ///< of the probe's half grid, FilmTables::stride() a ray
     /// Single precision moves its rays by more than is_ill_conditioned() allows (path_stability.h):
     /// it is traced in double.
     bool in_double = false;
 };
 
-/// Cells across a probe.
-inline constexpr int probe_cells = 12;
+/// Cells across a probe, and across that of a ghost for which a plan nearby found these enough.
+inline constexpr int probe_cells = 12, few_probe_cells = 8;
 
 /// Plans and draws one ghost after another; holds what they share. Threads may use it together.
 class GhostPlanner {
@@ -82,6 +85,7 @@ class GhostPlanner {
         bool polarised = false;  ///< and polarisation with them
         bool split = false;      ///< singular cells get grids of their own
         double error_mm2 = 0.0;
+        double cells_wanted = 0.0;  ///< even where the probe has more of them
     };
 
     const FlareScene& scene_;

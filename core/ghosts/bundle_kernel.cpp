@@ -150,6 +150,13 @@ namespace ghostlight::GHOSTLIGHT_JOIN(kernels_, GHOSTLIGHT_ISA) {
         return known;
     }
 
+    /// Any step; kept apart, or it would be compiled once for every place in every loop.
+    template <int mode, class T>
+    [[gnu::noinline]] void pass_any(const BundleView<T>& b, std::size_t i, const TraceStep<T>& step,
+                                    const Place& place, Packet<Lanes<T>>& p) {
+        pass<mode, true>(b, i, step, place, p);
+    }
+
     /// Several packets side by side: each is one long chain of dependent operations, and the others
     /// fill its gaps.
     template <int mode, bool records, int packets, class T>
@@ -158,18 +165,20 @@ namespace ghostlight::GHOSTLIGHT_JOIN(kernels_, GHOSTLIGHT_ISA) {
         Packet<Lanes<T>> p[packets];
         for (std::size_t k = 0; k < packets; ++k) p[k] = begin<mode>(b, i + k * lanes);
         Place place{0, 0, 0};
-        auto pass_all = [&](const TraceStep<T>& step) __attribute__((always_inline)) {
-            for (std::size_t k = 0; k < packets; ++k)
-                pass<mode, records>(b, i + k * lanes, step, place, p[k]);
-        };
         for (; place.step < b.step_count; ++place.step) {
             const TraceStep<T>& step = b.steps[place.step];
-            if (!is_plain(step))
-                pass_all(step);
-            else if (step.reflects)
-                pass_all(plain<true>(step));
-            else
-                pass_all(plain<false>(step));
+            if (!is_plain(step)) {
+                for (std::size_t k = 0; k < packets; ++k)
+                    pass_any<mode>(b, i + k * lanes, step, place, p[k]);
+            } else if (step.reflects) {
+                const TraceStep<T> known = plain<true>(step);
+                for (std::size_t k = 0; k < packets; ++k)
+                    pass<mode, records>(b, i + k * lanes, known, place, p[k]);
+            } else {
+                const TraceStep<T> known = plain<false>(step);
+                for (std::size_t k = 0; k < packets; ++k)
+                    pass<mode, records>(b, i + k * lanes, known, place, p[k]);
+            }
             place.crossing += step.at_stop ? 1 : 0;
             place.reflection += step.reflects ? 1 : 0;
         }
@@ -179,20 +188,21 @@ namespace ghostlight::GHOSTLIGHT_JOIN(kernels_, GHOSTLIGHT_ISA) {
     template <int mode, bool records, class T>
     void trace_records(const BundleView<T>& b) {
         constexpr std::size_t lanes = Lanes<T>::size();
-        constexpr int side_by_side = mode == no_weights ? 4 : 2;
+        constexpr std::size_t side_by_side = mode == no_weights ? 4 : 2;
+        // Bundles are padded to so many packets.
+        constexpr std::size_t least = bundle_padding / lanes;
         std::size_t i = 0;
         for (; i + side_by_side * lanes <= b.count; i += side_by_side * lanes)
             trace_at<mode, records, side_by_side>(b, i);
-        for (; i + 2 * lanes <= b.count; i += 2 * lanes) trace_at<mode, records, 2>(b, i);
-        for (; i < b.count; i += lanes) trace_at<mode, records, 1>(b, i);
+        if constexpr (least < side_by_side)
+            for (; i < b.count; i += least * lanes) trace_at<mode, records, least>(b, i);
     }
 
     template <int mode, class T>
     void trace_all(const BundleView<T>& b) {
-        if (b.cosines != nullptr || b.lengths != nullptr)
-            trace_records<mode, true>(b);
-        else
-            trace_records<mode, false>(b);
+        if (mode != no_weights || b.cosines != nullptr || b.lengths != nullptr)
+            return trace_records<mode, true>(b);
+        if constexpr (mode == no_weights) trace_records<mode, false>(b);
     }
 
     template <class T>

@@ -13,8 +13,9 @@ constexpr SearchEffort effort{12, 1, 40, 600};  // as find_pupil's quick one
 constexpr int most_zooms = 24;
 constexpr int most_cells = 96;  ///< of a look: then cells by themselves are cheaper
 constexpr int meridian_rays = 256;
-constexpr double room_for_moves = 0.15;  ///< about a box of a beam nearby, of its breadth
-constexpr std::size_t few_passing = 8;   ///< of the last grid's nodes: look more closely
+constexpr std::size_t share_passing = 4;  ///< one node of so many is to pass, for a box to serve
+constexpr double room_for_moves = 0.15;   ///< about a box of a beam nearby, of its breadth
+constexpr std::size_t few_passing = 8;    ///< of the last grid's nodes: look more closely
 
 PupilBox symmetric(PupilBox box) {
     box.u1_mm = std::max(std::abs(box.u0_mm), std::abs(box.u1_mm));
@@ -112,13 +113,30 @@ bool reaches_edge(const MirrorGrid& grid, const Range& i, const Range& j, const 
 /// beyond which there is more of the entrance. What bulges out between two nodes of a side is at
 /// most a ten-thousandth of what passes.
 bool still_serves(const MirrorGrid& grid, const PassingNodes& passing, const PupilBox& whole) {
-    constexpr double most_free_rows = 3.0;
-    if (passing.count < effort.enough_passing || passing.i.high < grid.cells / 2 - 1 ||
+    const double most_free_rows = std::max(3.0, grid.cells / 3.0);
+    const std::size_t nodes = static_cast<std::size_t>(grid.cells * grid.cells);
+    if (passing.count * share_passing < nodes || passing.i.high < grid.cells / 2 - 1 ||
         passing.j.low + grid.cells - passing.j.high > most_free_rows)
         return false;
     return (passing.i.high < grid.cells / 2 || grid.box.u1_mm >= whole.u1_mm) &&
            (passing.j.low > 0.0 || grid.box.v0_mm <= whole.v0_mm) &&
            (passing.j.high < grid.cells || grid.box.v1_mm >= whole.v1_mm);
+}
+
+/// Keeps what passes of a probe's last grid.
+PassingNodes keep_passing(const PupilBox& whole, double stop_radius_mm, GhostProbe& probe) {
+    const MirrorGrid& grid = probe.grid;
+    const PassingNodes passing = passing_nodes(grid, stop_radius_mm);
+    probe.passing = passing.count;
+    probe.passing_box = grid.box;
+    if (passing.count == 0) return passing;
+    const double cell_v_mm = (grid.box.v1_mm - grid.box.v0_mm) / grid.cells;
+    PupilBox& box = probe.passing_box;
+    box.u1_mm = std::min(whole.u1_mm, grid.box.u1_mm * (passing.i.high + 1.0) / (grid.cells / 2));
+    box.u0_mm = -box.u1_mm;
+    box.v0_mm = std::max(whole.v0_mm, grid.box.v0_mm + (passing.j.low - 1.0) * cell_v_mm);
+    box.v1_mm = std::min(whole.v1_mm, grid.box.v0_mm + (passing.j.high + 1.0) * cell_v_mm);
+    return passing;
 }
 
 /// By cells, each way of looking in turn; false when none finds anything.
@@ -159,9 +177,8 @@ GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path
             grid.half.keep_cosines = true;
             trace_mirrored(path, frame, Weights::none, grid);
             probe.rays += grid.half.size();
-            const PassingNodes passing = passing_nodes(grid, stop_radius_mm);
-            probe.passing = passing.count;
-            if (still_serves(grid, passing, whole)) return probe;
+            probe.served = still_serves(grid, keep_passing(whole, stop_radius_mm, probe), whole);
+            if (probe.served) return probe;
             grid.half.keep_cosines = false;
         }
         grid.box = widened(*nearby, whole, room_for_moves);
@@ -229,7 +246,7 @@ GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path
     const PupilBox found = grid.box;
     trace_mirrored(path, frame, Weights::none, grid);
     probe.rays += grid.half.size();
-    probe.passing = passing_nodes(grid, stop_radius_mm).count;
+    keep_passing(whole, stop_radius_mm, probe);
     const bool too_few = probe.passing < few_passing && !searched;
     if (too_few && careful &&
         !search_cells(system, path, frame, {PupilSearch::quick, PupilSearch::beside_failing},
@@ -243,7 +260,7 @@ GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path
         return probe;
     trace_mirrored(path, frame, Weights::none, grid);
     probe.rays += grid.half.size();
-    probe.passing = passing_nodes(grid, stop_radius_mm).count;
+    keep_passing(whole, stop_radius_mm, probe);
     return probe;
 }
 
