@@ -55,6 +55,7 @@ class GhostPlanner {
     /// Finds where it enters, and a bound of its light. With a plan for a light nearby (or a lens
     /// slightly other), what that found is looked at first.
     ProbedGhost find(const GhostPath& path, const PlannedGhost* nearby = nullptr) const;
+    ProbedGhost find(const GhostPath& path, const PlannedGhost* nearby, ProbeSearch search) const;
     /// Then its light, and what a first drawing of it gets wrong.
     void weigh(ProbedGhost& ghost) const;
     /// Both.

@@ -81,7 +81,10 @@ std::optional<std::vector<ProbedGhost>> probe_all(const FlareScene& scene,
     const std::vector<GhostPath>& paths = request.only.empty() ? scene.ghosts : request.only;
     std::vector<ProbedGhost> ghosts(paths.size());
     const bool found = parallel_for(ghosts.size(), request.threads, stop, [&](std::size_t g) {
-        ghosts[g] = planner.find(paths[g], nearby_of(request, g, paths[g]));
+        const PlannedGhost* nearby = nearby_of(request, g, paths[g]);
+        // What is searched for anew is searched for well: it serves the next pictures, too.
+        const bool well = request.nearby && nearby == nullptr;
+        ghosts[g] = planner.find(paths[g], nearby, well ? ProbeSearch::careful : request.search);
     });
     if (!found) return std::nullopt;
 

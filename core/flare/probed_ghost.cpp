@@ -91,6 +91,11 @@ void GhostPlanner::mind_rounding(ProbedGhost& ghost) const {
 }
 
 ProbedGhost GhostPlanner::find(const GhostPath& path, const PlannedGhost* nearby) const {
+    return find(path, nearby, search_);
+}
+
+ProbedGhost GhostPlanner::find(const GhostPath& path, const PlannedGhost* nearby,
+                               ProbeSearch search) const {
     ProbedGhost result;
     PlannedGhost& planned = result.planned;
     planned.path = path;
@@ -99,11 +104,11 @@ ProbedGhost GhostPlanner::find(const GhostPath& path, const PlannedGhost* nearby
         return result;
     }
     const auto trace = trace_path<float>(scene_.system(), path);
-    const bool few = nearby != nullptr && search_ == ProbeSearch::quick &&
+    const bool few = nearby != nullptr && search == ProbeSearch::quick &&
                      nearby->look.cells_wanted > 0.0 && nearby->look.cells_wanted < few_enough;
     GhostProbe probe =
         probe_ghost(scene_.system(), trace, beam_, entrance_, few ? few_probe_cells : probe_cells,
-                    search_, nearby != nullptr ? &nearby->look.box : nullptr);
+                    search, nearby != nullptr ? &nearby->look.box : nullptr);
     planned.rays = probe.rays;
     planned.look.box = probe.passing_box;
     if (probe.served) result.nearby = *nearby;
