@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "core/freed_memory.h"
 #include "core/ghosts/ghost_path.h"
 #include "core/optics/optical_system.h"
 #include "core/units.h"
@@ -171,6 +172,7 @@ int main(int argc, char** argv) {
             return 0;
         }
     }
+    ghostlight::keep_freed_memory();
     // X11, through XWayland where need be: VTK's OpenGL here is GLX.
     if (qEnvironmentVariableIsSet("DISPLAY") && !qEnvironmentVariableIsSet("QT_QPA_PLATFORM")) {
         qputenv("QT_QPA_PLATFORM", "xcb");
