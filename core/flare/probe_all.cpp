@@ -32,8 +32,7 @@ constexpr std::size_t search_anew_every = 8;
 const PlannedGhost* nearby_of(const FlareRequest& request, std::size_t g, const GhostPath& path) {
     if (!request.nearby || g >= request.nearby->ghosts.size()) return nullptr;
     const PlannedGhost& nearby = request.nearby->ghosts[g];
-    const bool anew = (g + static_cast<std::size_t>(request.turn)) % search_anew_every == 0;
-    return anew || nearby.path != path ? nullptr : &nearby;
+    return nearby.path != path ? nullptr : &nearby;
 }
 
 /// The ghosts that are found, by falling bound.
@@ -82,9 +81,11 @@ std::optional<std::vector<ProbedGhost>> probe_all(const FlareScene& scene,
     std::vector<ProbedGhost> ghosts(paths.size());
     const bool found = parallel_for(ghosts.size(), request.threads, stop, [&](std::size_t g) {
         const PlannedGhost* nearby = nearby_of(request, g, paths[g]);
-        // What is searched for anew is searched for well: it serves the next pictures, too.
-        const bool well = request.nearby && nearby == nullptr;
-        ghosts[g] = planner.find(paths[g], nearby, well ? ProbeSearch::careful : request.search);
+        const bool anew = (g + static_cast<std::size_t>(request.turn)) % search_anew_every == 0;
+        // Searched for well then: it serves the next pictures, too.
+        ghosts[g] = nearby != nullptr && anew
+                        ? planner.find(paths[g], nullptr, ProbeSearch::careful)
+                        : planner.find(paths[g], nearby);
     });
     if (!found) return std::nullopt;
 
