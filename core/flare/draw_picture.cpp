@@ -136,6 +136,12 @@ bool LevelPictures<C>::bring_up_to(int last, unsigned threads, const std::stop_t
 }
 
 template <int C>
+std::vector<float>& LevelPictures<C>::level(int level) {
+    coarsest_ = std::max(coarsest_, level);
+    return levels_[static_cast<std::size_t>(level)];
+}
+
+template <int C>
 std::optional<std::vector<float>> LevelPictures<C>::take(unsigned threads,
                                                          const std::stop_token& stop,
                                                          FlareTimes& times) {

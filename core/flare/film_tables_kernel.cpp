@@ -22,6 +22,12 @@ namespace ghostlight::GHOSTLIGHT_JOIN(kernels_, GHOSTLIGHT_ISA) {
             V most = r_s;
             stdx::where(r_p > r_s, most) = r_p;
             const V t = 0.5F * (norm(film.t_s) + norm(film.t_p));
+            const V t_s = norm(film.t_s);
+            V s_reflected(1.0F), s_passed(1.0F);
+            stdx::where(r > 0.0F, s_reflected) = r_s / r;
+            stdx::where(t > 0.0F, s_passed) = t_s / t;
+            s_reflected.copy_to(c.s_reflected + i, stdx::element_aligned);
+            s_passed.copy_to(c.s_passed + i, stdx::element_aligned);
             r.copy_to(c.reflectance + i, stdx::element_aligned);
             t.copy_to(c.transmittance + i, stdx::element_aligned);
             most.copy_to(c.most_reflected + i, stdx::element_aligned);
@@ -99,6 +105,34 @@ namespace ghostlight::GHOSTLIGHT_JOIN(kernels_, GHOSTLIGHT_ISA) {
             for (; ray + 2 <= w.count; ray += 2) weigh<2>(w, ray, first);
             for (; ray < w.count; ++ray) weigh<1>(w, ray, first);
         }
+    }
+
+    void spectral_states(const SpectralWeightsView& w) {
+        const std::size_t together = w.wavelengths < V::size() ? 1 : V::size();
+        for (std::size_t ray = 0; ray < w.count; ++ray)
+            for (std::size_t k = 0; k < w.wavelengths; k += together) {
+                V s(1.0F), p(1.0F);
+                for (std::size_t step = 0; step < w.step_count; ++step) {
+                    const float* table = w.tables[step];
+                    if (table == nullptr) continue;
+                    const auto [node, share] = between(w.cosines[step * w.stride + ray], w.nodes);
+                    const float* low = table + static_cast<std::size_t>(node) * w.wavelengths + k;
+                    V a(low[0]), b(low[w.wavelengths]);
+                    if (together > 1) {
+                        a.copy_from(low, stdx::element_aligned);
+                        b.copy_from(low + w.wavelengths, stdx::element_aligned);
+                    }
+                    const V of_s = a + share * (b - a);
+                    s *= of_s;
+                    p *= 2.0F - of_s;
+                }
+                const V mean = 0.5F * (s + p);
+                float* out = w.weights + ray * w.wavelengths + k;
+                if (together > 1)
+                    mean.copy_to(out, stdx::element_aligned);
+                else
+                    *out = mean[0];
+            }
     }
 
 }  // namespace ghostlight::GHOSTLIGHT_JOIN(kernels_,GHOSTLIGHT_ISA)

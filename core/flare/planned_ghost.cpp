@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/flare/ghost_measures.h"
+#include "core/flare/ghost_spot.h"
 #include "core/flare/ghost_weights.h"
 #include "core/flare/grid_light.h"
 #include "core/flare/picture_levels.h"
@@ -285,7 +286,7 @@ void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
     if (rough && cells != probe.cells)
         draw_grids(geometry, main,
                    ghost_weights(scene_, trace_path<float>(scene_.system(), planned.path), main,
-                                 ghost.polarised),
+                                 ghost.polarised, ghost.colors),
                    bands, split, ghost, mesh);
     else
         draw_grids(geometry, probe, ghost.weights, bands, split, ghost, mesh);
@@ -293,13 +294,13 @@ void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
     choose_level(chosen, mesh.edge_contrast * pixel_mm2, mesh.slope_contrast * pixel_mm2, planned);
 }
 
-MeshNodes GhostPlanner::landed(const ProbedGhost& ghost) const {
+GhostSpot GhostPlanner::spot(const ProbedGhost& ghost) const {
     MeshNodes nodes = placement_.place(ghost.grid);
     interpolate(ghost.grid,
                 ray_light<color_channels>(scene_, ghost.grid, ghost.weights,
                                           channel_shares<color_channels>(scene_, 0, 1)),
                 color_channels, nodes.cells, nodes.weights);
-    return nodes;
+    return spot_of(nodes, color_channels, placement_.frame());
 }
 
 GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
@@ -326,7 +327,7 @@ GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
     }
     if (own_weights)
         fine_weights = ghost_weights(scene_, trace_path<float>(scene_.system(), planned.path), fine,
-                                     ghost.polarised);
+                                     ghost.polarised, ghost.colors);
     const MirrorGrid& weight_grid = own_weights ? fine : probe;
     const std::vector<float>& weights = own_weights ? fine_weights : ghost.weights;
     auto light = [&](int band, int bands) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/flare/ghost_measures.h"
+#include "core/flare/ghost_spot.h"
 #include "core/flare/grid_light.h"
 #include "core/flare/planned_ghost.h"
 #include "core/ghosts/double_trace.h"
@@ -20,12 +21,6 @@ constexpr double few_enough = 6.5;
 /// Of a ghost's allowance, for interpolating polarisation.
 constexpr double polarised_allowed = 0.02;
 constexpr int shift_cells = 6;  ///< of the grids that lateral colour is measured on
-/// Of the bend times the contrast: only its part across an edge counts, and most of the contrast
-/// is at rims, where chords follow the bend. Calibrated on all bundled lenses, see
-/// docs/benchmarks.md.
-constexpr double grid_factor = 0.3;
-/// Of a chord's height: unbiased chords are off by a quarter of it on average.
-constexpr double rim_factor = 0.25;
 /// Of the light in singular cells: a root drawn as a line is off by as much, over a cell.
 constexpr double singular_factor = 0.3;
 /// Of the shift between the outer geometry wavelengths times the contrast: most of the light lies
@@ -138,8 +133,10 @@ void GhostPlanner::weigh(ProbedGhost& ghost) const {
             ? polarised_allowed * ghost.nearby->allowance_mm2 / ghost.nearby->flux_mm2
             : 0.0;
     ghost.polarised = polarised_share(scene_, trace, beam_, planned.box, allowed);
-    ghost.weights = ghost_weights(scene_, trace, ghost.grid, ghost.polarised);
-    planned.rays += ghost.polarised.ratio.size();
+    ColorShare colors = color_share(scene_, planned.path, beam_, ghost.polarised);
+    ghost.weights = ghost_weights(scene_, trace, ghost.grid, ghost.polarised, colors.ratio);
+    planned.rays +=
+        ghost.polarised.ratio.size() + colors.first.half.size() + colors.last.half.size();
 
     MirrorGrid closer;
     if (ghost.passing < few_passing) {
@@ -155,13 +152,18 @@ void GhostPlanner::weigh(ProbedGhost& ghost) const {
     const FrameLight light = light_on_frame(nodes, placement_.frame());
     planned.flux_mm2 = light.flux_mm2;
     planned.whole_flux_mm2 = light.whole_flux_mm2;
-    planned.moments = moments_of(nodes, placement_.frame());
+    planned.spot = spot_of(nodes, gray_channels, placement_.frame());
     if (!light.passes)
         planned.fate = GhostFate::nothing_passes;
     else if (!light.near_frame)
         planned.fate = GhostFate::off_sensor;
     else
-        look(first, nodes, ghost);
+        look(first, nodes, colors, ghost);
+    ghost.colors = std::move(colors.ratio);
+    // Its weights are known: what they came from is most of a ghost's memory.
+    ghost.grid.half.cosines = {};
+    ghost.grid.half.lengths_mm = {};
+    ghost.polarised.grid.half = {};
 }
 
 ProbedGhost GhostPlanner::probe(const GhostPath& path) const {
@@ -171,8 +173,11 @@ ProbedGhost GhostPlanner::probe(const GhostPath& path) const {
 }
 
 /// How far apart the outer geometry wavelengths land, from few rays where they suffice.
-double GhostPlanner::shift_of_colors_px(const ProbedGhost& ghost) const {
+double GhostPlanner::shift_of_colors_px(const ProbedGhost& ghost, const ColorShare& colors) const {
     double shift = 0.0;
+    if (colors.first.cells > 0)
+        shift = shift_px(placement_.place(colors.first), placement_.place(colors.last));
+    if (shift > 0.0) return shift;
     for (const int cells : {shift_cells, probe_cells}) {
         shift = shift_px(placement_.place(traced(ghost, 0, cells)),
                          placement_.place(traced(ghost, scene_.geometry.size() - 1, cells)));
@@ -182,7 +187,8 @@ double GhostPlanner::shift_of_colors_px(const ProbedGhost& ghost) const {
 }
 
 /// What a plain drawing of the first grid would get wrong.
-void GhostPlanner::look(const MirrorGrid& first, const MeshNodes& nodes, ProbedGhost& ghost) const {
+void GhostPlanner::look(const MirrorGrid& first, const MeshNodes& nodes, const ColorShare& colors,
+                        ProbedGhost& ghost) const {
     const PixelFrame& frame = placement_.frame();
     ColorMesh<gray_channels> mesh;
     add_grid(nodes, frame, mesh);
@@ -200,7 +206,7 @@ void GhostPlanner::look(const MirrorGrid& first, const MeshNodes& nodes, ProbedG
     if (scene_.geometry.size() > 1) {
         double& shift_px = ghost.planned.look.shift_px;
         shift_px = ghost.nearby ? ghost.nearby->look.shift_px : 0.0;
-        if (!(shift_px > 0.0)) shift_px = shift_of_colors_px(ghost);
+        if (!(shift_px > 0.0)) shift_px = shift_of_colors_px(ghost, colors);
         errors.merging_mm2 = merging_factor * contrast * shift_px;
     }
     errors.weight_mm2 = ghost.planned.flux_mm2 *
