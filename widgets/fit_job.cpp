@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <utility>
 
 #include "core/error.h"
 #include "core/fit/light_place.h"
+#include "core/io/fit_photos.h"
 #include "core/io/photo_file.h"
 #include "core/optics/paraxial.h"
 #include "core/units.h"
@@ -40,9 +42,55 @@ std::optional<QPointF> light_in(const FitPhoto& photo, const OpticalSystem& syst
     if (!at) {
         return std::nullopt;
     }
+    const PhotoPixel pixel = pixel_at(photo, at->x_mm, at->y_mm);
+    return QPointF(photo.photo.width_px - pixel.column, pixel.row);
+}
+
+/// Upright pictures are mirrored left to right against the sensor's frame.
+QTransform to_sensor(const FitPhoto& photo, const Sensor& sensor) {
     const double pitch_mm = photo.place.pitch_mm(photo.photo);
-    return QPointF(photo.photo.width_px - (photo.place.axis_column + at->x_mm / pitch_mm),
-                   photo.place.axis_row + at->y_mm / pitch_mm);
+    const double cosine = std::cos(photo.place.rotation_rad),
+                 sine = std::sin(photo.place.rotation_rad);
+    const double width_mm = pitch_mm * photo.photo.width_px,
+                 height_mm = pitch_mm * photo.photo.height_px;
+    // Of the upper left corner of the upright picture, from the axis, before the rotation.
+    const double x_mm = width_mm - pitch_mm * photo.place.axis_column,
+                 y_mm = -pitch_mm * photo.place.axis_row;
+    return {cosine * width_mm / sensor.width_mm,
+            -sine * width_mm / sensor.height_mm,
+            sine * height_mm / sensor.width_mm,
+            cosine * height_mm / sensor.height_mm,
+            0.5 - (cosine * x_mm - sine * y_mm) / sensor.width_mm,
+            0.5 + (sine * x_mm + cosine * y_mm) / sensor.height_mm};
+}
+
+/// "4.1 % masked: light 2 %, painted 2.1 %, 3 hot pixels".
+QString masked_text(const Photo& photo) {
+    const MaskCounts counts = count_masked(photo);
+    if (counts.all() == 0) {
+        return {};
+    }
+    const auto share = [&](std::size_t pixels) {
+        return significant(
+                   100.0 * static_cast<double>(pixels) / static_cast<double>(photo.pixels()), 2) +
+               QStringLiteral(" %");
+    };
+    QStringList parts;
+    const auto add = [&](const QString& what, std::size_t pixels) {
+        if (pixels > 0) {
+            parts << what + ' ' + share(pixels);
+        }
+    };
+    add(QObject::tr("light"), counts.light);
+    add(QObject::tr("clipped"), counts.saturated);
+    add(QObject::tr("painted"), counts.painted);
+    add(QObject::tr("outside of the crop"), counts.cropped);
+    add(QObject::tr("no numbers"), counts.not_a_number);
+    if (counts.hot > 0) {
+        parts << (counts.hot == 1 ? QObject::tr("1 hot pixel")
+                                  : QObject::tr("%1 hot pixels").arg(counts.hot));
+    }
+    return QObject::tr("%1 masked: %2").arg(share(counts.all()), parts.join(", "));
 }
 
 }  // namespace
@@ -120,10 +168,19 @@ void FitJob::work_on_load(const Task& task, const std::stop_token& stop) {
         try {
             const ReadPhoto photo = read(each.file);
             shown.preview = photo_picture(*photo);
+            shown.mask = mask_picture(*photo);
             shown.size_px = QSize(photo->width_px, photo->height_px);
             shown.about = about(*photo);
-            Notes notes = photo->notes;
-            const FitPhoto placed = fit_photo(*photo, each.light, task.lens, notes);
+            shown.noise = photo->noise;
+            shown.saturation = photo->saturation;
+            Notes notes;
+            const FitPhoto placed =
+                read_fit_photo(each, task.lens, notes, [&](const auto&) { return *photo; });
+            shown.mask = mask_picture(placed.photo);
+            shown.masked = masked_text(placed.photo);
+            shown.noise = placed.photo.noise;
+            shown.saturation = placed.photo.saturation;
+            shown.to_sensor = to_sensor(placed, task.lens.sensor);
             shown.light = light_in(placed, compile(task.lens, d_line_nm));
             shown.field_deg = placed.light.field_deg;
             for (const Note& note : notes) {
@@ -151,6 +208,26 @@ void FitJob::work_on_load(const Task& task, const std::stop_token& stop) {
         Qt::QueuedConnection);
 }
 
+template <class What>
+void FitJob::say(std::uint64_t serial, What what) {
+    QMetaObject::invokeMethod(
+        this,
+        [this, serial, what] {
+            if (serial == fit_serial_) {
+                what();
+            }
+        },
+        Qt::QueuedConnection);
+}
+
+void FitJob::wait_while_paused(std::unique_lock<std::mutex>& lock, const std::stop_token& stop,
+                               std::uint64_t serial) {
+    if (paused_) {
+        say(serial, [this] { Q_EMIT paused(); });
+        resumed_.wait(lock, stop, [this] { return !paused_; });
+    }
+}
+
 void FitJob::look_at(const FitLook& look, const Task& task, const std::stop_token& stop) {
     costs_.push_back(look.cost);
     std::unique_lock lock(mutex_);
@@ -162,68 +239,55 @@ void FitJob::look_at(const FitLook& look, const Task& task, const std::stop_toke
     if (now - glanced_at_ >= between_glances || paused_) {
         glanced_at_ = now;
         const auto glance = std::make_shared<const FitGlance>(FitGlance{look, costs_});
-        QMetaObject::invokeMethod(
-            this,
-            [this, glance, serial = task.serial] {
-                if (serial == fit_serial_) {
-                    Q_EMIT glanced(glance);
-                }
-            },
-            Qt::QueuedConnection);
+        say(task.serial, [this, glance] { Q_EMIT glanced(glance); });
     }
-    resumed_.wait(lock, stop, [this] { return !paused_; });
+    wait_while_paused(lock, stop, task.serial);
 }
 
 void FitJob::work_on_fit(const Task& task, const std::stop_token& stop) {
-    const auto say = [this, serial = task.serial](auto&& what) {
-        QMetaObject::invokeMethod(
-            this,
-            [this, serial, what] {
-                if (serial == fit_serial_) {
-                    what();
-                }
-            },
-            Qt::QueuedConnection);
-    };
+    in_work_ = true;
     costs_.clear();
+    const std::uint64_t serial = task.serial;
+    const auto wait = [&] {
+        std::unique_lock lock(mutex_);
+        wait_while_paused(lock, stop, serial);
+    };
+    const auto began = [&](const QString& what) {
+        say(serial, [this, what] { Q_EMIT stage_began(what); });
+        wait();
+    };
     try {
         FitRequest request = fit_request(task.setup, task.lens);
-        std::vector<Photo> pictures;
-        for (const FitPhotoSetup& each : task.setup.photos) {
-            pictures.push_back(*read(each.file));
-            if (stop.stop_requested()) {
-                return;
-            }
-        }
-        if (task.setup.merge && pictures.size() > 1) {
-            pictures.assign(1, merged(pictures));
-        }
-        std::vector<FitPhoto> photos;
+        began(tr("reading the photographs"));
         Notes notes;
-        for (std::size_t i = 0; i < pictures.size(); ++i) {
-            photos.push_back(
-                fit_photo(std::move(pictures[i]), task.setup.photos[i].light, task.lens, notes));
-        }
+        const std::vector<FitPhoto> photos = read_fit_photos(
+            task.setup, task.lens, notes, [this](const auto& file) { return *read(file.string()); },
+            stop);
         request.look = [&](const FitLook& look) { look_at(look, task, stop); };
+        request.stage = [&](const std::string& what) { began(QString::fromStdString(what)); };
         const auto tell = [&](double share, double) {
-            say([this, share] { Q_EMIT progressed(share); });
-            std::unique_lock lock(mutex_);
-            resumed_.wait(lock, stop, [this] { return !paused_; });
+            say(serial, [this, share] { Q_EMIT progressed(share); });
+            wait();
         };
-        const auto report = fit_flare(task.lens, photos, request, stop, tell);
+        const auto report = stop.stop_requested()
+                                ? std::nullopt
+                                : fit_flare(task.lens, photos, request, stop, tell);
         if (report) {
             const auto shared = std::make_shared<const FitReport>(*report);
-            say([this, shared] {
+            say(serial, [this, shared] {
                 running_ = false;
                 Q_EMIT finished(shared);
             });
         }
     } catch (const std::exception& error) {
-        say([this, reason = QString::fromUtf8(error.what())] {
+        say(serial, [this, reason = QString::fromUtf8(error.what())] {
             running_ = false;
             Q_EMIT failed(reason);
         });
     }
+    in_work_ = false;
+    QMetaObject::invokeMethod(
+        this, [this] { Q_EMIT ended(); }, Qt::QueuedConnection);
 }
 
 }  // namespace ghostlight

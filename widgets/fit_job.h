@@ -4,7 +4,9 @@
 #include <QObject>
 #include <QPointF>
 #include <QString>
+#include <QTransform>
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <filesystem>
@@ -24,11 +26,16 @@ namespace ghostlight {
 struct LoadedPhoto {
     std::string file;
     QImage preview;                ///< upright; null where it cannot be read
+    QImage mask;                   ///< over it: what does not count
+    QTransform to_sensor;          ///< from shares of the upright file to shares of the sensor
     QSize size_px;                 ///< of the file
     std::optional<QPointF> light;  ///< its image, pixels of the upright file
     double field_deg = 0.0;
     QString about;   ///< camera, exposure
-    QString reason;  ///< why it cannot be used; empty where it can
+    QString masked;  ///< how much does not count, and why
+    PhotoNoise noise;
+    double saturation = 1.0;  ///< infinite where nothing is clipped
+    QString reason;           ///< why it cannot be used; empty where it can
     QStringList notes;
 };
 using LoadedPhotos = std::shared_ptr<const std::vector<LoadedPhoto>>;
@@ -57,12 +64,20 @@ class FitJob : public QObject {
     bool is_loading() const { return loading_; }
     bool is_running() const { return running_; }
     bool is_paused() const { return paused_; }
+    /// A fit that was cancelled has not yet come to its end; another one waits for that.
+    bool is_stopping() const { return in_work_ && !running_; }
     /// The iteration of the lowest cost of the fit that runs or ran last; null before the first.
     std::shared_ptr<const FitLook> best() const;
 
    Q_SIGNALS:
     void photos_loaded(ghostlight::LoadedPhotos photos);
     void progressed(double share);
+    /// Which part of the work begins, in words.
+    void stage_began(const QString& what);
+    /// The fit waits, having been asked to.
+    void paused();
+    /// A fit has come to its end, also one that was cancelled.
+    void ended();
     void glanced(std::shared_ptr<const ghostlight::FitGlance> glance);
     void finished(std::shared_ptr<const ghostlight::FitReport> report);
     void failed(const QString& reason);
@@ -78,9 +93,15 @@ class FitJob : public QObject {
     void work_on_load(const Task& task, const std::stop_token& stop);
     void work_on_fit(const Task& task, const std::stop_token& stop);
     void look_at(const FitLook& look, const Task& task, const std::stop_token& stop);
+    void wait_while_paused(std::unique_lock<std::mutex>& lock, const std::stop_token& stop,
+                           std::uint64_t serial);
+    /// On this object's thread, unless the fit of that number is no longer wanted.
+    template <class What>
+    void say(std::uint64_t serial, What what);
 
     std::uint64_t load_serial_ = 0, fit_serial_ = 0;
     bool loading_ = false, running_ = false;
+    std::atomic<bool> in_work_ = false;
     mutable std::mutex mutex_;  ///< of all that follows
     std::condition_variable_any resumed_;
     bool paused_ = false;

@@ -5,6 +5,7 @@
 
 #include "core/flare/flare_image.h"
 #include "core/flare/tone_map.h"
+#include "widgets/palette.h"
 
 namespace ghostlight {
 
@@ -41,10 +42,58 @@ QImage upright_image(const std::vector<float>& rgb, int width, int height, doubl
     return image;
 }
 
+int pixels_per_preview(const Photo& photo) {
+    return std::max(1, (photo.width_px + preview_width_px - 1) / preview_width_px);
+}
+
+/// Over any picture, in either theme.
+QRgb color_of(char reason) {
+    const Palette colors = dark_palette();
+    const auto tinted = [](QColor color) {
+        constexpr int alpha = 110;
+        color.setAlpha(alpha);
+        return qPremultiply(color.rgba());
+    };
+    switch (reason) {
+        case mask_reason::painted:
+            return tinted(colors.amber);
+        case mask_reason::light:
+            return tinted(colors.teal);
+        case mask_reason::cropped:
+            return qRgba(0, 0, 0, 170);
+        default:
+            return tinted(colors.red_orange);
+    }
+}
+
 }  // namespace
 
+QImage mask_picture(const Photo& photo) {
+    const int by = pixels_per_preview(photo);
+    const int width = photo.width_px / by, height = photo.height_px / by;
+    if (width == 0 || height == 0 || photo.masked.size() != photo.pixels()) {
+        return {};
+    }
+    QImage image(width, height, QImage::Format_ARGB32_Premultiplied);
+    image.fill(Qt::transparent);
+    for (int y = 0; y < height * by; ++y) {
+        auto* line = reinterpret_cast<QRgb*>(image.scanLine(y / by));
+        for (int x = 0; x < width * by; ++x) {
+            // Upright pictures are mirrored left to right against the sensor's frame.
+            const char reason =
+                photo
+                    .masked[static_cast<std::size_t>(y) * static_cast<std::size_t>(photo.width_px) +
+                            static_cast<std::size_t>(photo.width_px - 1 - x)];
+            if (reason != 0) {
+                line[x / by] = color_of(reason);
+            }
+        }
+    }
+    return image;
+}
+
 QImage photo_picture(const Photo& photo) {
-    const int by = std::max(1, (photo.width_px + preview_width_px - 1) / preview_width_px);
+    const int by = pixels_per_preview(photo);
     const int width = photo.width_px / by, height = photo.height_px / by;
     if (width == 0 || height == 0) {
         return {};

@@ -15,6 +15,10 @@ namespace ghostlight {
 inline constexpr int preview_width_px = 960;
 QImage photo_picture(const Photo& photo);
 
+/// What of a photograph is masked, at the scale of photo_picture(): amber where painted, teal about
+/// the light, red where clipped, hot or no number, dark outside of the crop; transparent elsewhere.
+QImage mask_picture(const Photo& photo);
+
 /// Exposure in stops at which the brightest hundredth of a photograph on the fit's scale is light.
 double fit_exposure_ev(const FittedPhoto& photo);
 

@@ -25,9 +25,14 @@ struct Part {
     StudySection (*run)(const StudyRequest&);
 };
 constexpr Part parts[] = {
-    {"coverage", study_coverage},         {"radii", study_radii},
-    {"undetermined", study_undetermined}, {"clutter", study_clutter},
-    {"wrong-lens", study_wrong_lens},     {"derivatives", study_derivatives},
+    {"coverage", study_coverage},
+    {"radii", study_radii},
+    {"undetermined", study_undetermined},
+    {"clutter", study_clutter},
+    {"wrong-lens", study_wrong_lens},
+    {"derivatives", study_derivatives},
+    {"kinds", study_kinds},
+    {"speed", study_speed},
 };
 
 void run(const FitStudyOptions& options) {
@@ -43,8 +48,10 @@ void run(const FitStudyOptions& options) {
     if (!options.only.empty())
         for (const auto part : split(options.only, ',')) {
             if (std::ranges::none_of(parts, [&](const Part& each) { return part == each.key; }))
-                throw bad_value("--only", part,
-                                "coverage, radii, undetermined, clutter, wrong-lens, derivatives");
+                throw bad_value(
+                    "--only", part,
+                    "coverage, radii, undetermined, clutter, wrong-lens, derivatives, kinds, "
+                    "speed");
             wanted.emplace_back(part);
         }
     std::string markdown = fmt::format(
@@ -87,7 +94,8 @@ void add_fit_study(CLI::App& program) {
         ->capture_default_str();
     add_text(*command, "--seed", options->seed, "N", "of the first draw")->capture_default_str();
     add_text(*command, "--only", options->only, "LIST",
-             "coverage, radii, undetermined, clutter, wrong-lens, derivatives");
+             "coverage, radii, undetermined, clutter, wrong-lens, derivatives, kinds, "
+             "speed");
     command->add_flag("--quick", options->quick,
                       "small photographs, looser references, two lenses for derivatives");
     command->footer(R"(Examples:

@@ -14,17 +14,6 @@
 namespace ghostlight::cli {
 namespace {
 
-FitRequest usual_fit(const Prescription& lens, const std::string& vary, bool quick) {
-    FitRequest fit;
-    fit.vary = parse_vary(vary, lens);
-    if (quick) fit.across = 64;
-    return fit;
-}
-
-bool holds(const FittedNumber& number, double truth) {
-    return number.low <= truth && truth <= number.high;
-}
-
 /// Rows of one fit for a table: number, truth, value, error, interval.
 void add_rows(const FitReport& report, const std::vector<double>& truth, const std::string& which,
               Table& table) {
@@ -42,16 +31,6 @@ std::vector<std::string> row_columns() {
             "low",  "high",   "covered", "knowledge", "chi2_per_value"};
 }
 
-double chi2_per_value(const FitReport& report) {
-    return report.chi2 / static_cast<double>(report.residuals);
-}
-
-std::size_t covered(const FitReport& report, const std::vector<double>& truth) {
-    std::size_t count = 0;
-    for (std::size_t k = 0; k < truth.size(); ++k) count += holds(report.numbers[k], truth[k]);
-    return count;
-}
-
 std::string remarks_of(const FitReport& report) {
     std::string text;
     for (const std::string& each : report.remarks) text += "\n- " + each;
@@ -59,80 +38,6 @@ std::string remarks_of(const FitReport& report) {
 }
 
 }  // namespace
-
-StudySection study_coverage(const StudyRequest& request) {
-    StudySection section{.key = "coverage",
-                         .title = "Coverage of the 95 % intervals",
-                         .text = {},
-                         .table = {},
-                         .pictures = {}};
-    const Prescription truth = tessar_with(true_centers_nm), wrong = tessar_with(first_centers_nm);
-    SyntheticPhotoRequest camera = study_camera(5.0, request.quick);
-    const FlareImage subject = *photo_subject(truth, camera);
-    section.table.columns = {"seed", "number", "truth_nm", "value_nm",     "standard_error_nm",
-                             "low",  "high",   "covered",  "other_minima", "knowledge"};
-    struct Sum {
-        double error = 0.0, square = 0.0;
-        std::vector<double> bars;
-        int covered = 0, determined = 0, near = 0;
-    };
-    std::vector<Sum> sums(true_centers_nm.size());
-    int usable = 0, ambiguous = 0;
-    for (int draw = 0; draw < request.draws; ++draw) {
-        camera.seed = request.seed + static_cast<std::uint64_t>(draw);
-        const std::vector<FitPhoto> photos = {
-            fit_photo(exposed(subject, truth, camera), truth, camera.light)};
-        const FitReport report =
-            *fit_flare(wrong, photos, usual_fit(wrong, "center@all", request.quick));
-        usable += report.usable;
-        ambiguous += !report.other_minima.empty();
-        for (std::size_t k = 0; k < sums.size(); ++k) {
-            const FittedNumber& number = report.numbers[k];
-            const double off = number.value - true_centers_nm[k];
-            Sum& sum = sums[k];
-            sum.error += off;
-            sum.square += off * off;
-            sum.bars.push_back(number.standard_error);
-            sum.covered += holds(number, true_centers_nm[k]);
-            if (number.knowledge == FitKnowledge::determined) {
-                ++sum.determined;
-                sum.near += std::abs(off) < 3.0;
-            }
-            section.table.rows.push_back(
-                {static_cast<std::int64_t>(camera.seed), name(number.parameter), true_centers_nm[k],
-                 number.value, number.standard_error, number.low, number.high,
-                 holds(number, true_centers_nm[k]) ? "yes" : "no",
-                 static_cast<std::int64_t>(report.other_minima.size()), name(number.knowledge)});
-        }
-        if (draw == 0)
-            section.pictures.push_back(write_pages(report, truth.name, request.folder, "coverage"));
-        if (request.progress) request.progress((draw + 1.0) / request.draws);
-    }
-    int all = 0;
-    for (const Sum& sum : sums) all += sum.covered;
-    const int count = request.draws * static_cast<int>(sums.size());
-    section.text = fmt::format(
-        "{} draws of the noise (seeds from {}), a Tessar with six λ0 off by up to 105 nm at first, "
-        "5°, {} pixels, 1 % noise, exposure, balance, shading, background and place unknown. "
-        "**{} of {} intervals hold the truth: {:.1f} %.** {} verdicts of {} call the fit usable; "
-        "{} name another minimum.\n\n"
-        "| number | mean error, nm | scatter | median standard error | covered | determined | of "
-        "those within 3 nm |\n| --- | --- | --- | --- | --- | --- | --- |\n",
-        request.draws, request.seed, camera.width_px, all, count, 100.0 * all / count, usable,
-        request.draws, ambiguous);
-    const double n = request.draws;
-    for (std::size_t k = 0; k < sums.size(); ++k) {
-        Sum& sum = sums[k];
-        std::ranges::sort(sum.bars);
-        const double mean = sum.error / n;
-        section.text += fmt::format("| {} | {:.1f} | {:.1f} | {:.1f} | {} of {} | {} | {} |\n",
-                                    std::get<std::string>(section.table.rows[k][1]), mean,
-                                    std::sqrt(std::max(0.0, sum.square / n - mean * mean)),
-                                    sum.bars[sum.bars.size() / 2], sum.covered, request.draws,
-                                    sum.determined, sum.near);
-    }
-    return section;
-}
 
 StudySection study_radii(const StudyRequest& request) {
     StudySection section{.key = "radii",
@@ -329,6 +234,52 @@ StudySection study_wrong_lens(const StudyRequest& request) {
             write_pages(report, lens.name, request.folder, fmt::format("wrong_{}", each)));
     }
     section.text = "A Tessar's photograph, fitted with three lenses:\n\n" + section.text;
+    return section;
+}
+
+StudySection study_kinds(const StudyRequest& request) {
+    StudySection section{.key = "kinds",
+                         .title = "Kinds of coating",
+                         .text = {},
+                         .table = {.columns = {"surface", "truth", "kind", "numbers", "chi2_above",
+                                               "bic_above", "share"},
+                                   .rows = {}},
+                         .pictures = {}};
+    // Two of six surfaces have other kinds than the fit is told.
+    Prescription truth = tessar_with(true_centers_nm);
+    truth.surfaces[0].coating = parse_coating("v-coat");
+    truth.surfaces[5].coating = Uncoated{};
+    const Prescription wrong = tessar_with(first_centers_nm);
+    const SyntheticPhotoRequest camera = study_camera(5.0, request.quick);
+    const std::vector<FitPhoto> photos = {
+        fit_photo(*synthetic_photo(truth, camera), truth, camera.light)};
+    FitRequest fit = usual_fit(wrong, "center@all", request.quick);
+    for (const char* each : {"none", "qw:550", "v-coat", "two-layer-quarter-half"})
+        fit.kinds.push_back({each, parse_coating(each)});
+    const FitReport report = *fit_flare(wrong, photos, fit);
+    std::size_t right = 0;
+    for (const SurfaceKinds& surface : report.kinds) {
+        const std::string expected = surface.row == 0   ? "v-coat"
+                                     : surface.row == 5 ? "none"
+                                                        : "qw:550";
+        right += surface.tried.front().name == expected;
+        for (const KindTried& each : surface.tried)
+            section.table.rows.push_back({static_cast<std::int64_t>(surface.row + 1), expected,
+                                          each.name, static_cast<std::int64_t>(each.numbers),
+                                          each.chi2_above, each.bic_above, each.share});
+        section.text += fmt::format(
+            "- surface {} (truth: {}): {}, {:.3g} % of the odds; next {}, "
+            "BIC {:.3g} higher\n",
+            surface.row + 1, expected, surface.tried.front().name,
+            100.0 * surface.tried.front().share, surface.tried[1].name, surface.tried[1].bic_above);
+    }
+    section.text = fmt::format(
+                       "A Tessar with a V-coat on surface 1 and none on surface 6; the fit is told "
+                       "quarter waves "
+                       "everywhere and chooses from four kinds. {} of {} are right. \"{}\"\n\n",
+                       right, report.kinds.size(), report.verdict) +
+                   section.text;
+    section.pictures.push_back(write_pages(report, truth.name, request.folder, "kinds"));
     return section;
 }
 

@@ -44,5 +44,9 @@ StudySection study_clutter(const StudyRequest& request);
 StudySection study_wrong_lens(const StudyRequest& request);
 /// Slopes of the model's picture against differences, every kind of number, on bundled lenses.
 StudySection study_derivatives(const StudyRequest& request);
+/// Kinds of coating chosen by their BIC, against a truth whose kinds differ.
+StudySection study_kinds(const StudyRequest& request);
+/// Twelve coatings, alone and with six numbers of geometry, and a file of 24 megapixels.
+StudySection study_speed(const StudyRequest& request);
 
 }  // namespace ghostlight::cli

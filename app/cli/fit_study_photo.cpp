@@ -50,6 +50,27 @@ FitPhoto fit_photo(Photo photo, const Prescription& lens, const LightDirection& 
     return fit;
 }
 
+FitRequest usual_fit(const Prescription& lens, const std::string& vary, bool quick) {
+    FitRequest fit;
+    fit.vary = parse_vary(vary, lens);
+    if (quick) fit.across = 64;
+    return fit;
+}
+
+bool holds(const FittedNumber& number, double truth) {
+    return number.low <= truth && truth <= number.high;
+}
+
+double chi2_per_value(const FitReport& report) {
+    return report.chi2 / static_cast<double>(report.residuals);
+}
+
+std::size_t covered(const FitReport& report, const std::vector<double>& truth) {
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < truth.size(); ++k) count += holds(report.numbers[k], truth[k]);
+    return count;
+}
+
 std::string write_pages(const FitReport& report, const std::string& heading,
                         const std::filesystem::path& folder, const std::string& name) {
     write_file_safely(folder / (name + ".html"),

@@ -21,6 +21,15 @@ SyntheticPhotoRequest study_camera(double field_deg, bool quick);
 /// A photograph as a fit takes it: unusable pixels and the light's own image masked.
 FitPhoto fit_photo(Photo photo, const Prescription& lens, const LightDirection& light);
 
+/// The fit that a user gets, of these numbers.
+FitRequest usual_fit(const Prescription& lens, const std::string& vary, bool quick);
+
+/// Whether a number's 95 % interval holds the truth, and how many of a report's do.
+bool holds(const FittedNumber& number, double truth);
+std::size_t covered(const FitReport& report, const std::vector<double>& truth);
+
+double chi2_per_value(const FitReport& report);
+
 /// The fit's report as a page, and its photograph, model and residuals as one picture, in the
 /// folder under that name. Returns the picture's file name.
 std::string write_pages(const FitReport& report, const std::string& heading,

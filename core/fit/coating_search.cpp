@@ -38,6 +38,7 @@ FitView thinned(const FitView& view, int by) {
     thin.place = view.place;
     thin.background_unit = view.background_unit;
     thin.log_gain_start = view.log_gain_start;
+    thin.curve_error = view.curve_error;
     thin.data.noise = view.data.noise;
     // The samples are points of the sensor, as before; only their number changes.
     auto count = [by](int all) { return (all + by - 1) / by; };
@@ -102,6 +103,7 @@ std::vector<FitMinimum> CoatingSearch::descend_all(const std::vector<std::vector
             for (std::size_t i = 0; i < views.size(); ++i)
                 views[i].log_gain_start = views_[i].log_gain_start;
             FitEvaluator evaluator(layout_, views, weights, 1);
+            evaluator.set_stop(stop);
             evaluator.x = points[k];
             evaluator.start_gains();
             const Descent descent = descend(evaluator, loss_, loss_scale_, iterations,

@@ -17,8 +17,11 @@ struct Watch final : ceres::IterationCallback {
 }  // namespace
 
 Descent descend(FitEvaluator& evaluator, FitLoss loss, double loss_scale, int iterations,
-                const std::function<bool(double)>& go_on) {
+                const std::function<bool(double)>& go_on, int held) {
     const auto problem = fit_problem(evaluator, loss, loss_scale);
+    if (held >= 0)
+        problem->SetManifold(evaluator.x.data(), new ceres::SubsetManifold(
+                                                     static_cast<int>(evaluator.x.size()), {held}));
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     options.max_num_iterations = iterations;
@@ -38,6 +41,7 @@ Descent descend(FitEvaluator& evaluator, FitLoss loss, double loss_scale, int it
 
 double cost_of(FitEvaluator& evaluator, FitLoss loss, double loss_scale) {
     evaluator.PrepareForEvaluation(false, true);
+    if (evaluator.stopped()) return std::numeric_limits<double>::infinity();
     const auto rho = make_loss(loss, loss_scale);
     double cost = 0.0;
     for (std::size_t i = 0; i < evaluator.views().size(); ++i) {

@@ -12,9 +12,10 @@ struct Descent {
     double cost = 0.0;
     int iterations = 0;
 };
-/// `go_on` is told each iteration's cost, and ends the descent by false.
+/// `go_on` is told each iteration's cost, and ends the descent by false. `held`: an unknown that
+/// stays where it is; below 0 none does.
 Descent descend(FitEvaluator& evaluator, FitLoss loss, double loss_scale, int iterations,
-                const std::function<bool(double)>& go_on = {});
+                const std::function<bool(double)>& go_on = {}, int held = -1);
 
 /// Half of Σ ρ(squares of a sample's residuals), plus half of the priors' squares, there.
 double cost_of(FitEvaluator& evaluator, FitLoss loss, double loss_scale);

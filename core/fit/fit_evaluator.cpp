@@ -20,6 +20,7 @@ class SampleCost final : public ceres::CostFunction {
         mutable_parameter_block_sizes()->push_back(static_cast<int>(count));
     }
     bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
+        if (evaluator_.stopped()) return false;
         const double* from = &evaluator_.residuals(photo_)[3 * sample_];
         std::copy(from, from + 3, residuals);
         // Refused here, a point that is no number is stepped back from without a word on stderr.
@@ -92,10 +93,13 @@ double FitEvaluator::gain(std::size_t photo, std::size_t channel) const {
 void FitEvaluator::picture(bool slopes) {
     const std::vector<double> values = coating_values();
     if (values == pictured_at_ && (pictured_slopes_ || !slopes)) return;
-    weights_.get().update(values, slopes);
-    for (std::size_t i = 0; i < views_.size(); ++i)
-        pictures_[i] = ghost_picture(views_[i].bases, weights_.get(), views_[i].data.frame,
-                                     layout_.coatings.size(), slopes, threads_);
+    pictured_at_.clear();
+    if (weights_.get().update(values, slopes, stop_))
+        for (std::size_t i = 0; i < views_.size(); ++i)
+            pictures_[i] = ghost_picture(views_[i].bases, weights_.get(), views_[i].data.frame,
+                                         layout_.coatings.size(), slopes, threads_, stop_);
+    stopped_ = stop_.stop_requested();
+    if (stopped_) return;
     pictured_at_ = values;
     pictured_slopes_ = slopes;
 }
@@ -112,6 +116,7 @@ void FitEvaluator::start_gains() {
 
 void FitEvaluator::fit_gains() {
     picture(false);
+    if (stopped_) return;
     for (std::size_t i = 0; i < views_.size(); ++i) {
         FitView& view = views_[i];
         double log_gain[3];
@@ -135,6 +140,7 @@ void FitEvaluator::fit_gains() {
 
 void FitEvaluator::PrepareForEvaluation(bool jacobians, bool) {
     picture(jacobians);
+    if (stopped_) return;
     const std::size_t count = layout_.count(), coatings = layout_.coatings.size(),
                       geometry = layout_.geometry.size();
     for (std::size_t i = 0; i < views_.size(); ++i) {

@@ -3,6 +3,8 @@
 #include <ceres/ceres.h>
 
 #include <memory>
+#include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "core/fit/flare_fit.h"
@@ -22,6 +24,7 @@ struct FitView {
     std::vector<std::vector<double>> slopes;
     double background_unit = 1.0;  ///< a typical level: the unit of background coefficients
     double log_gain_start = 0.0;
+    double curve_error = 0.0;  ///< of the photograph, see Photo::curve_error
 };
 
 /// Layout of the vector of unknowns, all in units of their priors about their starts: coatings,
@@ -68,6 +71,11 @@ class FitEvaluator final : public ceres::EvaluationCallback {
     /// Where the geometry's and places' slopes hold.
     std::vector<double> linearised_at;
 
+    /// Nothing is worked out any more once this is asked: every evaluation fails at once, which
+    /// ends a solver that is under way.
+    void set_stop(std::stop_token stop) { stop_ = std::move(stop); }
+    bool stopped() const { return stopped_; }
+
     void PrepareForEvaluation(bool jacobians, bool new_point) override;
 
     const std::vector<double>& residuals(std::size_t photo) const { return residuals_[photo]; }
@@ -95,6 +103,8 @@ class FitEvaluator final : public ceres::EvaluationCallback {
     std::vector<ModelPicture> pictures_;
     std::vector<double> pictured_at_;
     bool pictured_slopes_ = false;
+    std::stop_token stop_;
+    bool stopped_ = false;
 
     void picture(bool slopes);
 };

@@ -43,7 +43,7 @@ FitRun::Unmixed FitRun::unmixed(std::size_t photo) {
     const std::size_t count = result.ghosts.size();
     std::vector<std::vector<float>> columns(count);
     std::vector<float> rest(3 * view.data.samples(), 0.0F);
-    parallel_for(count, request_.threads, {}, [&](std::size_t k) {
+    parallel_for(count, request_.threads, stop_, [&](std::size_t k) {
         const ModelPicture one =
             one_ghost(view.bases[result.ghosts[k]], *weights_, view.data.frame);
         columns[k].assign(3 * view.data.samples(), 0.0F);
@@ -59,10 +59,11 @@ FitRun::Unmixed FitRun::unmixed(std::size_t photo) {
             rest[3 * s + c] = static_cast<float>(
                 (view.data.value[3 * s + c] - evaluator_->model(photo)[3 * s + c]) /
                 view.scales[s].sigma(view.data.value[3 * s + c]));
+    check_stop();
     const auto n = static_cast<Eigen::Index>(count);
     Eigen::MatrixXd normal(n, n);
     Eigen::VectorXd right(n);
-    parallel_for(count, request_.threads, {}, [&](std::size_t a) {
+    parallel_for(count, request_.threads, stop_, [&](std::size_t a) {
         for (std::size_t b = 0; b <= a; ++b) {
             double sum = 0.0;
             for (std::size_t s = 0; s < rest.size(); ++s)
@@ -74,6 +75,7 @@ FitRun::Unmixed FitRun::unmixed(std::size_t photo) {
             sum += static_cast<double>(columns[a][s] * rest[s]);
         right(static_cast<Eigen::Index>(a)) = sum;
     });
+    check_stop();
     for (Eigen::Index a = 0; a < n; ++a)
         for (Eigen::Index b = 0; b < a; ++b) normal(b, a) = normal(a, b);
     right += normal * Eigen::VectorXd::Ones(n);
@@ -135,11 +137,14 @@ FitReport FitRun::finish() {
         covariance.GetCovarianceBlock(evaluator_->x.data(), evaluator_->x.data(), inverse.data());
     evaluator_->PrepareForEvaluation(true, true);
     const auto info =
-        information(*evaluator_, request_.loss, request_.loss_scale, request_.ghost_error);
+        information(*evaluator_, request_.loss, request_.loss_scale, request_.ghost_error, stop_);
+    check_stop();
     const Eigen::MatrixXd known =
         worked ? covariance_of(info, Eigen::MatrixXd(inverse)) : covariance_of(info);
 
     FitReport& report = report_;
+    report.loss = request_.loss;
+    report.loss_scale = request_.loss_scale;
     report.cost_after = cost_now();
     evaluator_->PrepareForEvaluation(true, true);
     report.explained_after = explained();
@@ -183,8 +188,10 @@ FitReport FitRun::finish() {
     }
     FittedLens fitted = with_coatings(current_geometry());
     report.lens = fitted;
-    fill_bands(outcome, listed_.lens, fitted.lens, report);
+    fill_bands(outcome, given_, listed_.lens, fitted.lens, report);
     judge(outcome, report);
+    profile(report);
+    bootstrap(report);
     suggest(known);
     return std::move(report);
 }

@@ -263,8 +263,8 @@ void fill_photo(const FitOutcome& outcome, std::size_t i, FitReport& report) {
     report.photos.push_back(std::move(photo));
 }
 
-void fill_bands(const FitOutcome& outcome, const Prescription& before, const Prescription& after,
-                FitReport& report) {
+void fill_bands(const FitOutcome& outcome, const Prescription& before, const Prescription& listed,
+                const Prescription& after, FitReport& report) {
     const FitLayout& layout = outcome.layout;
     const std::size_t count = layout.lens_count();
     std::vector<std::size_t> rows;
@@ -294,7 +294,7 @@ void fill_bands(const FitOutcome& outcome, const Prescription& before, const Pre
                     std::max(1e-6 * each.prior, 0.3 * report.numbers[p].standard_error);
                 const double value = report.numbers[p].value;
                 auto at = [&](double moved) {
-                    Coating coating = before.surfaces[row].coating;
+                    Coating coating = listed.surfaces[row].coating;
                     for (std::size_t k = 0; k < layout.coatings.size(); ++k)
                         if (std::ranges::find(layout.coatings[k].rows, row) !=
                             layout.coatings[k].rows.end())

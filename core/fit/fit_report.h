@@ -24,8 +24,10 @@ struct FitOutcome {
 void fill_misfit(const FitOutcome& outcome, FitReport& report);
 void fill_numbers(const FitOutcome& outcome, FitReport& report);
 void fill_photo(const FitOutcome& outcome, std::size_t photo, FitReport& report);
-void fill_bands(const FitOutcome& outcome, const Prescription& before, const Prescription& after,
-                FitReport& report);
+/// `before`: as given; `listed`: with the kinds of coating that were chosen, numbers at their
+/// starts.
+void fill_bands(const FitOutcome& outcome, const Prescription& before, const Prescription& listed,
+                const Prescription& after, FitReport& report);
 /// The verdict in words, and whether the lens explains the photographs.
 void judge(const FitOutcome& outcome, FitReport& report);
 

@@ -14,7 +14,7 @@ namespace {
 
 /// Geometry is linearised again until it stays, but not more often than this; places, which are
 /// known beforehand to a few priors, stay after one.
-constexpr int most_linearisations = 4, first_linearisations = 1;
+constexpr int most_linearisations = 12, first_linearisations = 1;
 
 /// Of a sample: how well the model's quadrature places rims and caustics.
 constexpr double rim_place = 0.02;
@@ -23,18 +23,31 @@ constexpr double rim_place = 0.02;
 
 FitReport FitRun::run() {
     const auto began = Clock::now();
+    tell_stage("bringing the photographs to the fit's scale");
     prepare();
+    tell_stage("tracing the ghosts");
     build();
     look_at_start();
     share_ = 0.2;
+    tell_stage("first guesses of the coatings");
     solve_coatings();
+    if (!request_.kinds.empty() && choose_kinds()) {
+        expect_errors();
+        solve_coatings();
+    }
     share_ = 0.4;
+    tell_stage("place of the picture");
     settle(first_linearisations);
     share_ = 0.6;
+    tell_stage("looking for other minima");
     const bool elsewhere = explore_coatings();
     share_ = 0.8;
     if (elsewhere) settle(first_linearisations);
-    if (!layout_.geometry.empty()) settle(most_linearisations);
+    if (!layout_.geometry.empty()) {
+        tell_stage("geometry");
+        settle(most_linearisations);
+    }
+    tell_stage("errors and report");
     FitReport report = finish();
     report.basis_ms = basis_ms_;
     report.seconds = 1e-3 * ms_since(began);
@@ -47,6 +60,10 @@ void FitRun::check_stop() const {
 
 void FitRun::tell(double share) const {
     if (progress_) progress_(share, cost_);
+}
+
+void FitRun::tell_stage(const char* words) const {
+    if (request_.stage) request_.stage(words);
 }
 
 void FitRun::show_look() const {
@@ -87,6 +104,14 @@ void FitRun::prepare() {
         view.data = fit_data(each.photo, each.place, listed_.lens.sensor.width_mm,
                              listed_.lens.sensor.height_mm, request_.across);
         view.light = each.light;
+        view.curve_error = each.photo.curve_error;
+        if (view.curve_error > 0.0)
+            report_.remarks.push_back(fmt::format(
+                "{}: the curve that made its values linear is a guess; each sample, and each "
+                "ghost's light as a whole, is taken to be off by {:.2g} % (standard deviation), "
+                "and the errors allow for it.",
+                each.photo.file.empty() ? "The photograph" : each.photo.file,
+                100.0 * view.curve_error));
         std::vector<double> levels;
         for (std::size_t s = 0; s < view.data.samples(); ++s)
             for (std::size_t c = 0; c < 3 && view.data.used[s]; ++c)
@@ -97,8 +122,10 @@ void FitRun::prepare() {
         view.stable.resize(3 * view.data.samples());
         for (std::size_t s = 0; s < view.data.samples(); ++s) {
             const double of_rim = rim_place * relative_contrast(view.data, s, view.background_unit);
-            view.scales.push_back(stable_scale(
-                view.data, s, std::hypot(request_.model_error, of_rim), view.background_unit));
+            view.scales.push_back(
+                stable_scale(view.data, s,
+                             std::hypot(std::hypot(request_.model_error, view.curve_error), of_rim),
+                             view.background_unit));
             for (std::size_t c = 0; c < 3; ++c)
                 view.stable[3 * s + c] = view.scales[s].at(view.data.value[3 * s + c]);
         }
@@ -112,13 +139,15 @@ void FitRun::prepare() {
     }
 }
 
-FittedLens FitRun::current_geometry() const {
+FittedLens FitRun::current_geometry() const { return geometry_moved(layout_.geometry.size(), 0.0); }
+
+FittedLens FitRun::geometry_moved(std::size_t which, double by) const {
     FittedLens lens = listed_;
     for (std::size_t q = 0; q < layout_.geometry.size(); ++q) {
         const FitParameter& p = layout_.geometry[q];
-        const double moved =
-            evaluator_ ? evaluator_->x[layout_.coatings.size() + q] * p.prior : 0.0;
-        set(lens, p, p.start + moved);
+        const double x = (evaluator_ ? evaluator_->x[layout_.coatings.size() + q] : 0.0) +
+                         (q == which ? by : 0.0);
+        set(lens, p, p.start + x * p.prior);
     }
     return lens;
 }
@@ -175,7 +204,7 @@ void FitRun::build() {
                      .found = fmt::format("light at a field angle of {:.3g} degrees",
                                           photos_.front().light.field_deg),
                      .expected = "a light from which the lens makes ghosts on the sensor; is "
-                                 "--light right?"});
+                                 "the light's place right?"});
     auto weights = std::make_unique<GhostWeights>(*scene, all, layout_.coatings, request_.threads);
     scene_ = std::move(scene);
     weights_ = std::move(weights);
@@ -186,7 +215,7 @@ void FitRun::build() {
 std::vector<double> FitRun::signals(std::size_t photo) {
     FitView& view = views_[photo];
     std::vector<double> result(view.bases.size());
-    parallel_for(view.bases.size(), request_.threads, {}, [&](std::size_t g) {
+    parallel_for(view.bases.size(), request_.threads, stop_, [&](std::size_t g) {
         const ModelPicture one = one_ghost(view.bases[g], *weights_, view.data.frame);
         double sum = 0.0;
         for (std::size_t s = 0; s < view.data.samples(); ++s) {
@@ -209,6 +238,7 @@ void FitRun::refresh() {
     const std::vector<double> x = evaluator_->x, at = evaluator_->linearised_at;
     weights_ = std::make_unique<GhostWeights>(*scene_, all, layout_.coatings, request_.threads);
     auto next = std::make_unique<FitEvaluator>(layout_, views_, *weights_, request_.threads);
+    next->set_stop(stop_);
     if (x.size() == next->x.size()) {
         next->x = x;
         next->linearised_at = at;

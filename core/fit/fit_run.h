@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -13,6 +14,7 @@
 #include "core/fit/fit_report.h"
 #include "core/fit/fit_statistics.h"
 #include "core/fit/flare_fit.h"
+#include "core/fit/lens_move.h"
 
 namespace ghostlight {
 
@@ -26,6 +28,7 @@ class FitRun {
     FitRun(const Prescription& lens, const std::vector<FitPhoto>& photos, const FitRequest& request,
            std::stop_token stop, const FitProgress& progress)
         : listed_{lens, {}},
+          given_(lens),
           photos_(photos),
           request_(request),
           stop_(std::move(stop)),
@@ -35,6 +38,7 @@ class FitRun {
    private:
     void check_stop() const;
     void tell(double share) const;
+    void tell_stage(const char* words) const;
     /// Shows the iteration that is done, where somebody looks.
     void show_look() const;
     void prepare();
@@ -51,9 +55,12 @@ class FitRun {
     /// After the layout has changed: everything that depends on it.
     void refresh();
     void drop_unfelt();
-    /// The picture of other geometry, with the coatings as they stand.
-    std::vector<double> picture_of(const FittedLens& lens, std::size_t photo,
-                                   const LightDirection& light, bool main_only);
+    /// What the photographs would tell of each number, from the Jacobian where the fit stands.
+    void expect_errors();
+    /// The lens with one number of its geometry moved on, by so many priors.
+    FittedLens geometry_moved(std::size_t which, double by) const;
+    /// What a photograph's picture is differentiated by: geometry, then the light's field.
+    LensMoves moves_of(std::size_t photo) const;
     /// Slopes by geometry and place where they stand.
     void linearise();
     double cost_now();
@@ -63,6 +70,21 @@ class FitRun {
     /// Looks for better minima about the best of the first guesses, and keeps those that explain
     /// the photographs nearly as well. True when it ends at another one.
     bool explore_coatings();
+    /// Surfaces whose kind of coating is to be chosen, and the signal that turns there.
+    std::vector<std::pair<std::size_t, double>> kind_rows();
+    struct KindTrial {
+        Coating coating;
+        FitLayout layout;
+        std::vector<double> x, log_gains;
+        double cost = 0.0;
+        std::size_t numbers = 0;
+    };
+    /// The best that a coating (null: the one that is there) can do on a surface, all others moving
+    /// with it.
+    KindTrial with_kind(std::size_t row, const Coating* coating);
+    void take_kind(std::size_t row, const KindTrial& trial);
+    /// The kind of coating on each surface by its BIC (kind_choice.cpp). True when one was changed.
+    bool choose_kinds();
     void stand_at(const FitMinimum& minimum);
     FitMinimum standing() const;
     /// Linearises geometry and place again until they stay, or so many times.
@@ -78,11 +100,17 @@ class FitRun {
     /// Gains of the strongest ghosts against their pictures, by non-negative least squares.
     Unmixed unmixed(std::size_t photo);
     FitReport finish();
+    /// The cost against one number, all others fitted (fit_profile.cpp).
+    void profile(FitReport& report);
+    /// The fit again on photographs drawn from its own model and errors.
+    void bootstrap(FitReport& report);
     /// Which light would narrow the worst known number most: its Jacobian, from the model, with the
     /// noise of the first photograph at a tenth of its brightest level.
     void suggest(const Eigen::MatrixXd& known);
 
-    FittedLens listed_;
+    FittedLens listed_;  ///< with the kinds of coating that were chosen
+    Prescription given_;
+    std::map<std::size_t, std::string> kind_names_;  ///< of those that were chosen
     const std::vector<FitPhoto>& photos_;
     const FitRequest& request_;
     std::stop_token stop_;

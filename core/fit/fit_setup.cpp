@@ -1,150 +1,139 @@
 #include "core/fit/fit_setup.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <charconv>
-#include <cmath>
-#include <optional>
-#include <utility>
+#include <algorithm>
 
 #include "core/error.h"
-#include "core/fit/light_place.h"
-#include "core/optics/paraxial.h"
+#include "core/ghosts/ghost_path.h"
 #include "core/units.h"
 
 namespace ghostlight {
 namespace {
 
-std::optional<double> number(std::string_view text) {
-    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-    while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-    double value = 0.0;
-    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (problem != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
-        return std::nullopt;
-    return value;
+/// Names of the ghosts of a comma list, as GhostPath's name() has them. Throws Error.
+std::vector<std::string> ghosts_in(std::string_view text, const OpticalSystem& system) {
+    std::vector<std::string> names;
+    while (!text.empty()) {
+        const std::size_t comma = text.find(',');
+        std::string_view word = text.substr(0, comma);
+        while (word.starts_with(' ')) word.remove_prefix(1);
+        while (word.ends_with(' ')) word.remove_suffix(1);
+        names.push_back(name(parse_ghost(word, system), system.surfaces.size()));
+        if (comma == std::string_view::npos) break;
+        text.remove_prefix(comma + 1);
+    }
+    return names;
 }
 
-[[noreturn]] void refuse_place(const std::string& text, const char* expected) {
-    throw Error({.problem = "the light's place cannot be read",
-                 .file = {},
-                 .where = {},
-                 .found = fmt::format("'{}'", text),
-                 .expected = expected});
-}
-
-/// "deg:FIELD" or "deg:FIELD:AZIMUTH".
-LightDirection read_direction(const std::string& text) {
-    constexpr const char* expected = "deg:FIELD or deg:FIELD:AZIMUTH, degrees";
-    const std::string_view rest = std::string_view(text).substr(4);
-    const std::size_t colon = rest.find(':');
-    const auto field = number(rest.substr(0, colon));
-    const auto azimuth =
-        colon == std::string_view::npos ? std::optional(90.0) : number(rest.substr(colon + 1));
-    if (!field || !azimuth || std::abs(*field) > 90.0) refuse_place(text, expected);
-    return {*field, *azimuth};
+/// " --option value", one value for all photographs or one each; nothing where they are all usual.
+template <class Value>
+std::string photo_option(const FitSetup& setup, std::string_view option, char separator,
+                         const Value& value) {
+    const std::string usual = value(FitPhotoSetup());
+    std::vector<std::string> values;
+    for (const FitPhotoSetup& each : setup.photos) values.push_back(value(each));
+    const auto is_usual = [&](const std::string& each) { return each == usual; };
+    if (std::ranges::all_of(values, is_usual)) return {};
+    if (std::ranges::all_of(values, [&](const auto& each) { return each == values.front(); }))
+        values.resize(1);
+    return fmt::format(" {} \"{}\"", option, fmt::join(values, std::string_view(&separator, 1)));
 }
 
 }  // namespace
+
+FitLoss parse_loss(std::string_view text) {
+    for (const FitLoss each : {FitLoss::none, FitLoss::huber, FitLoss::cauchy, FitLoss::tukey})
+        if (name(each) == text) return each;
+    throw Error({.problem = "the loss is not known",
+                 .file = {},
+                 .where = {},
+                 .found = std::string(text),
+                 .expected = "none, huber, cauchy or tukey"});
+}
+
+std::vector<std::string> ghosts_left_out(const std::string& left_out, const std::string& only,
+                                         const Prescription& lens) {
+    if (left_out.empty() && only.empty()) return {};
+    const OpticalSystem system = compile(lens, d_line_nm);
+    std::vector<std::string> names = ghosts_in(left_out, system);
+    if (only.empty()) return names;
+    const std::vector<std::string> used = ghosts_in(only, system);
+    for (const GhostPath& path : two_reflection_ghosts(system)) {
+        const std::string each = name(path, system.surfaces.size());
+        if (std::ranges::find(used, each) == used.end() &&
+            std::ranges::find(names, each) == names.end())
+            names.push_back(each);
+    }
+    return names;
+}
+
+std::vector<std::size_t> profiled_in(const std::string& text, const std::vector<FitParameter>& vary,
+                                     const Prescription& lens) {
+    std::vector<std::size_t> numbers;
+    if (text.empty()) return numbers;
+    for (const FitParameter& each : parse_vary(text, lens)) {
+        const auto at = std::ranges::find_if(vary, [&](const FitParameter& p) {
+            return p.kind == each.kind && p.rows == each.rows && p.layer == each.layer;
+        });
+        if (at == vary.end())
+            throw Error({.problem = "a profile is wanted of a number that is not varied",
+                         .file = {},
+                         .where = {},
+                         .found = vary_item(each),
+                         .expected = "numbers among those that are varied"});
+        numbers.push_back(static_cast<std::size_t>(at - vary.begin()));
+    }
+    return numbers;
+}
+
+std::string fit_command(const FitSetup& setup, const std::string& lens) {
+    const FitSetup usual;
+    auto text_if = [](const auto& value) { return value ? text_of(*value) : std::string(); };
+    auto number_if = [](const auto& value) { return value ? fmt::format("{}", *value) : ""; };
+    std::vector<std::string> files;
+    for (const FitPhotoSetup& each : setup.photos) files.push_back(each.file);
+    std::string text = fmt::format("fit {} --photo {}{}", lens, fmt::join(files, ","),
+                                   setup.merge ? " --merge" : "");
+    auto add = [&](const char* option, char separator, const auto& value) {
+        text += photo_option(setup, option, separator, value);
+    };
+    add("--light", ';', [](const FitPhotoSetup& p) { return p.light; });
+    add("--photo-mask", ',', [](const FitPhotoSetup& p) { return p.mask_file; });
+    add("--mask-region", ';', [](const FitPhotoSetup& p) { return text_of(p.masked); });
+    add("--crop", ';', [&](const FitPhotoSetup& p) { return text_if(p.crop); });
+    add("--photo-width", ';', [&](const FitPhotoSetup& p) { return number_if(p.width_mm); });
+    add("--principal", ';', [&](const FitPhotoSetup& p) { return text_if(p.axis); });
+    add("--rotation", ';',
+        [](const FitPhotoSetup& p) { return fmt::format("{}", p.rotation_deg); });
+    add("--photo-noise", ';', [&](const FitPhotoSetup& p) { return text_if(p.noise); });
+    add("--saturation", ';', [&](const FitPhotoSetup& p) { return number_if(p.saturation); });
+    text += fmt::format(" --vary {} --spectrum \"{}\"", setup.vary, setup.spectrum);
+    if (!setup.left_out.empty()) text += " --leave-out " + setup.left_out;
+    if (!setup.only.empty()) text += " --use-ghosts " + setup.only;
+    if (!setup.profiled.empty()) text += " --profile " + setup.profiled;
+    if (setup.bootstrap > 0) text += fmt::format(" --bootstrap {}", setup.bootstrap);
+    if (setup.loss != usual.loss) text += " --loss " + name(setup.loss);
+    if (setup.loss_scale != usual.loss_scale)
+        text += fmt::format(" --loss-scale {}", setup.loss_scale);
+    return text + fmt::format(" --seed {}", setup.seed);
+}
 
 FitRequest fit_request(const FitSetup& setup, const Prescription& lens) {
     FitRequest request;
     request.spectrum = parse_spectrum(setup.spectrum);
     request.vary = parse_vary(setup.vary, lens);
+    request.loss = setup.loss;
+    request.loss_scale = setup.loss_scale;
     request.across = setup.across;
     request.starts = setup.starts;
+    request.left_out = ghosts_left_out(setup.left_out, setup.only, lens);
+    request.profiled = profiled_in(setup.profiled, request.vary, lens);
+    request.bootstrap = setup.bootstrap;
     request.suggestions = static_cast<std::size_t>(setup.suggestions);
     request.seed = setup.seed;
     return request;
-}
-
-void check_shape(const Photo& photo, const Prescription& lens) {
-    const double sensor = lens.sensor.width_mm / lens.sensor.height_mm;
-    const double shape = static_cast<double>(photo.width_px) / photo.height_px;
-    if (std::abs(shape / sensor - 1.0) < 0.02) return;
-    const bool turned = std::abs(shape * sensor - 1.0) < 0.02;
-    throw Error(
-        {.problem = turned ? "the photograph is turned by 90 degrees against the sensor"
-                           : "the photograph has not the sensor's shape",
-         .file = photo.file,
-         .where = {},
-         .found = fmt::format("{} x {} pixels", photo.width_px, photo.height_px),
-         .expected = fmt::format(
-             "{:.4g} : {:.4g} as the sensor of {:.4g} x {:.4g} mm; {}", lens.sensor.width_mm,
-             lens.sensor.height_mm, lens.sensor.width_mm, lens.sensor.height_mm,
-             turned
-                 ? "turn the picture, or give --sensor HxW"
-                 : "give --sensor WxH of the camera, or --photo-width MM of a cropped picture")});
-}
-
-LightDirection light_at(const OpticalSystem& system, const FitPhoto& photo, double column,
-                        double row) {
-    const double pitch_mm = photo.place.pitch_mm(photo.photo);
-    const double x = (column - photo.place.axis_column) * pitch_mm,
-                 y = (row - photo.place.axis_row) * pitch_mm;
-    const double c = std::cos(photo.place.rotation_rad), s = std::sin(photo.place.rotation_rad);
-    return light_imaged_at(system, {c * x - s * y, s * x + c * y});
-}
-
-void place_light(const std::string& text, const OpticalSystem& system, FitPhoto& photo,
-                 Notes& notes) {
-    if (text.starts_with("deg:")) {
-        photo.light = read_direction(text);
-        if (const auto at = image_of_light(system, photo.light)) {
-            // Where the photograph has it, its rotation undone.
-            const double pitch_mm = photo.place.pitch_mm(photo.photo);
-            const double c = std::cos(photo.place.rotation_rad),
-                         s = std::sin(photo.place.rotation_rad);
-            mask_disc(photo.photo,
-                      photo.place.axis_column + (c * at->x_mm + s * at->y_mm) / pitch_mm,
-                      photo.place.axis_row + (c * at->y_mm - s * at->x_mm) / pitch_mm,
-                      0.01 * photo.photo.width_px + 2.0);
-        }
-        return;
-    }
-    double column = 0.0, row = 0.0;
-    if (text == "auto") {
-        const LightSpot spot = find_light(photo.photo);
-        column = spot.column;
-        row = spot.row;
-        // Its glow reaches further than what is clipped.
-        mask_disc(photo.photo, column, row, 1.5 * spot.radius_px + 3.0);
-        notes.push_back({Note::Severity::info, photo.photo.file,
-                         fmt::format("the light was found at {:.2f},{:.2f} px, {} pixels",
-                                     photo.photo.width_px - column, row, spot.pixels)});
-    } else {
-        const std::size_t comma = text.find(',');
-        const auto x = number(std::string_view(text).substr(0, comma));
-        const auto y = comma == std::string::npos
-                           ? std::nullopt
-                           : number(std::string_view(text).substr(comma + 1));
-        if (!x || !y)
-            refuse_place(text,
-                         "auto, X,Y in pixels from the upper left corner, or deg:FIELD:AZIMUTH");
-        // Upright pictures are mirrored left to right against the sensor's frame.
-        column = photo.photo.width_px - *x;
-        row = *y;
-        mask_disc(photo.photo, column, row, 0.01 * photo.photo.width_px);
-    }
-    photo.light = light_at(system, photo, column, row);
-}
-
-FitPhoto fit_photo(Photo picture, const std::string& light, const Prescription& lens,
-                   Notes& notes) {
-    const OpticalSystem system = compile(lens, d_line_nm);
-    FitPhoto photo;
-    photo.photo = std::move(picture);
-    check_shape(photo.photo, lens);
-    photo.place.sensor_width_mm = lens.sensor.width_mm;
-    photo.place.axis_column = 0.5 * photo.photo.width_px;
-    photo.place.axis_row = 0.5 * photo.photo.height_px;
-    const double f_number = first_order(system).f_number;
-    if (photo.photo.f_number && std::abs(*photo.photo.f_number / f_number - 1.0) > 0.05)
-        notes.push_back({Note::Severity::warning, photo.photo.file,
-                         fmt::format("taken at f/{:.3g}, the lens stands at f/{:.3g}",
-                                     *photo.photo.f_number, f_number)});
-    place_light(light, system, photo, notes);
-    return photo;
 }
 
 }  // namespace ghostlight

@@ -2,19 +2,12 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "core/fit/flare_fit.h"
-#include "core/optics/optical_system.h"
+#include "core/fit/photo_setup.h"
 
 namespace ghostlight {
-
-/// One photograph of a fit as a person gives it.
-struct FitPhotoSetup {
-    std::string file;
-    std::string light = "auto";  ///< where its light is, see place_light()
-    bool operator==(const FitPhotoSetup&) const = default;
-};
 
 /// All that a fit is started from beside the lens; saved with the lens.
 struct FitSetup {
@@ -23,31 +16,35 @@ struct FitSetup {
     std::string held;  ///< listed, but not varied at present; the same words
     std::string spectrum = "D65";
     bool merge = false;  ///< the photographs are exposures of one scene
+    FitLoss loss = FitLoss::cauchy;
+    double loss_scale = 4.0;  ///< standard deviations of a sample
+    std::string left_out;     ///< ghosts that do not count: "5-3,7-2"
+    std::string only;         ///< the only ones that count; empty: all
     int across = 96;
     int starts = 6;
     int suggestions = 0;
+    std::string profiled;  ///< of `vary`, those whose profile likelihood is wanted
+    int bootstrap = 0;     ///< photographs drawn from the fitted model; 0: none
     std::uint64_t seed = 1;
     bool operator==(const FitSetup&) const = default;
 };
 
-/// Throws Error like parse_vary() and parse_spectrum().
+/// "none", "huber", "cauchy" or "tukey". Throws Error.
+FitLoss parse_loss(std::string_view text);
+
+/// Names of the ghosts that two comma lists leave out: those of the first, and where the second is
+/// not empty, all that are not in it. Throws Error for a ghost that the lens has not.
+std::vector<std::string> ghosts_left_out(const std::string& left_out, const std::string& only,
+                                         const Prescription& lens);
+
+/// Which of `vary` a list of the same words names. Throws Error for one that it has not.
+std::vector<std::size_t> profiled_in(const std::string& text, const std::vector<FitParameter>& vary,
+                                     const Prescription& lens);
+
+/// What `ghostlight-cli` makes the same fit by.
+std::string fit_command(const FitSetup& setup, const std::string& lens);
+
+/// Throws Error like parse_vary(), parse_spectrum() and ghosts_left_out().
 FitRequest fit_request(const FitSetup& setup, const Prescription& lens);
-
-/// Throws Error where a photograph of the whole sensor has not the sensor's shape.
-void check_shape(const Photo& photo, const Prescription& lens);
-
-/// Direction of a light whose image is at a place of the photograph, pixels of the sensor's frame
-/// (as Photo::rgb). Throws Error where no light can be there.
-LightDirection light_at(const OpticalSystem& system, const FitPhoto& photo, double column,
-                        double row);
-
-/// Reads where the light is, sets FitPhoto::light and masks its image: "auto" (the largest bright
-/// patch), "X,Y" (pixels from the upper left corner of the upright picture) or
-/// "deg:FIELD[:AZIMUTH]". A light that was found is told in `notes`. Throws Error.
-void place_light(const std::string& text, const OpticalSystem& system, FitPhoto& photo,
-                 Notes& notes);
-
-/// The photograph over the whole sensor, its axis in the middle, its light placed. Throws Error.
-FitPhoto fit_photo(Photo photo, const std::string& light, const Prescription& lens, Notes& notes);
 
 }  // namespace ghostlight

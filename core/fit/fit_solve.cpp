@@ -3,20 +3,26 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <optional>
 #include <random>
 
 #include "core/elapsed.h"
 #include "core/error.h"
 #include "core/fit/fit_descent.h"
-#include "core/parallel.h"
+#include "core/fit/picture_slopes.h"
 
 namespace ghostlight {
 namespace {
 
 /// Places and geometry are linearised again until they move by less than this, in priors.
 constexpr double settled = 0.02;
-constexpr double field_step_deg = 0.02;
-constexpr double geometry_step = 0.3;  ///< of a prior
+/// Of a prior, to either side: numbers that a lens is compiled into are smooth, and this keeps what
+/// is left out (its square) and what rounding leaves below 1e-6.
+constexpr double move_step = 1e-3;
+/// By which the cost may rise from one linearisation to the next: other points, other rounding.
+constexpr double most_worse = 2.0;
+constexpr int most_halvings = 4;
 /// First guesses for all λ0 together, nm.
 constexpr std::array<double, 5> alike_nm = {550.0, 490.0, 620.0, 440.0, 690.0};
 constexpr int start_iterations = 10, final_iterations = 30, jump_iterations = 8;
@@ -26,80 +32,46 @@ constexpr std::size_t most_minima = 5;
 
 }  // namespace
 
-std::vector<double> FitRun::picture_of(const FittedLens& lens, std::size_t photo,
-                                       const LightDirection& light, bool main_only) {
-    const FittedLens whole = with_coatings(lens);
-    FitScene scene = fit_scene(whole, request_.spectrum, request_.spectral_samples);
-    scene.ghosts = scene_->ghosts;
+LensMoves FitRun::moves_of(std::size_t photo) const {
     const FitView& view = views_[photo];
-    const auto bases =
-        ghost_bases(scene, light, view.data.frame, view.place, main_only, request_.threads, stop_);
-    check_stop();
-    std::vector<const GhostBasis*> all;
-    for (const GhostBasis& basis : bases) {
-        all.push_back(&basis);
-        report_.rays += basis.traced;
+    LensMoves all;
+    all.film_now = compiled_films(*scene_, with_coatings(current_geometry()).lens);
+    for (std::size_t q = 0; q < layout_.geometry.size(); ++q)
+        all.moves.push_back(lens_move(*scene_, with_coatings(geometry_moved(q, -move_step)),
+                                      with_coatings(geometry_moved(q, move_step)), view.light,
+                                      2.0 * move_step));
+    if (layout_.place) {
+        LightDirection less = view.light, more = view.light;
+        less.field_deg -= move_step * field_prior_deg;
+        more.field_deg += move_step * field_prior_deg;
+        all.moves.push_back(light_move(*scene_, less, more, 2.0 * move_step));
     }
-    const GhostWeights weights(scene, all, {}, request_.threads);
-    return ghost_picture(bases, weights, view.data.frame, 0, false, request_.threads).values;
+    return all;
 }
 
 void FitRun::linearise() {
     weights_->update(evaluator_->coating_values(), false);
-    const FittedLens now = current_geometry();
+    const std::size_t geometry = layout_.geometry.size();
     for (std::size_t i = 0; i < views_.size(); ++i) {
         FitView& view = views_[i];
         view.slopes.clear();
-        for (std::size_t q = 0; q < layout_.geometry.size(); ++q) {
-            const FitParameter& p = layout_.geometry[q];
-            auto moved = [&](double by) {
-                FittedLens lens = listed_;
-                for (std::size_t k = 0; k < layout_.geometry.size(); ++k) {
-                    const FitParameter& each = layout_.geometry[k];
-                    const double at =
-                        evaluator_->x[layout_.coatings.size() + k] + (k == q ? by : 0.0);
-                    set(lens, each, each.start + each.prior * at);
-                }
-                return picture_of(lens, i, view.light, true);
-            };
-            auto more = moved(geometry_step), less = moved(-geometry_step);
-            for (std::size_t k = 0; k < more.size(); ++k)
-                more[k] = (more[k] - less[k]) / (2.0 * geometry_step);
-            view.slopes.push_back(std::move(more));
-            check_stop();
-            (void)p;
-        }
-        if (!layout_.place) continue;
-        std::array<std::vector<double>, 3> place;
-        for (auto& each : place) each.assign(3 * view.data.samples(), 0.0);
-        // In a fixed order, whatever the number of threads: ghosts in parts, then summed.
-        const std::size_t parts = std::min<std::size_t>(16, view.bases.size());
-        std::vector<std::array<std::vector<double>, 3>> partial(parts);
-        parallel_for(parts, request_.threads, stop_, [&](std::size_t part) {
-            for (auto& each : partial[part]) each.assign(3 * view.data.samples(), 0.0);
-            std::vector<double> coefficients;
-            for (std::size_t g = part; g < view.bases.size(); g += parts) {
-                weights_->coefficients(view.bases[g], coefficients, nullptr);
-                add_place_slopes(*scene_, view.bases[g], view.light, view.data.frame, view.place,
-                                 coefficients, partial[part]);
-            }
-        });
+        if (geometry == 0 && !layout_.place) continue;
+        const LensMoves moves = moves_of(i);
+        const ModelPicture by =
+            picture_slopes(*scene_, view.bases, *weights_, view.light, view.data.frame, view.place,
+                           moves, request_.threads, stop_);
         check_stop();
-        for (const auto& each : partial)
-            for (std::size_t k = 0; k < 3; ++k)
-                for (std::size_t s = 0; s < place[k].size(); ++s) place[k][s] += each[k][s];
-        const double units[3] = {shift_prior_mm, shift_prior_mm, rotation_prior_rad};
-        for (std::size_t k = 0; k < 3; ++k) {
-            for (double& value : place[k]) value *= units[k];
-            view.slopes.push_back(std::move(place[k]));
-        }
-        LightDirection more = view.light, less = view.light;
-        more.field_deg += field_step_deg;
-        less.field_deg -= field_step_deg;
-        auto upper = picture_of(now, i, more, true), lower = picture_of(now, i, less, true);
-        for (std::size_t k = 0; k < upper.size(); ++k)
-            upper[k] = (upper[k] - lower[k]) * field_prior_deg / (2.0 * field_step_deg);
-        view.slopes.push_back(std::move(upper));
+        auto take = [&](std::size_t column, double unit) {
+            std::vector<double>& to = view.slopes.emplace_back(3 * view.data.samples());
+            for (std::size_t k = 0; k < to.size(); ++k)
+                to[k] = unit * by.values[k * by.columns + column];
+        };
+        for (std::size_t q = 0; q < geometry; ++q) take(place_slopes + q, 1.0);
+        if (!layout_.place) continue;
+        take(0, shift_prior_mm);
+        take(1, shift_prior_mm);
+        take(2, rotation_prior_rad);
+        take(place_slopes + geometry, 1.0);
     }
     evaluator_->linearised_at = evaluator_->x;
 }
@@ -177,7 +149,7 @@ void FitRun::solve_coatings() {
     if (!std::isfinite(best.cost))
         throw Error({.problem = "the fit found no finite picture of this lens",
                      .file = photos_.front().photo.file,
-                     .where = "--vary",
+                     .where = "what is varied",
                      .found = "values or slopes that are not numbers from every first guess",
                      .expected = "other bounds, or fewer variables"});
     stand_at(best);
@@ -211,6 +183,7 @@ bool FitRun::explore_coatings() {
         Tried& tried = minima.emplace_back(Tried{standing(), {}});
         tried.minimum.cost = cost;
         evaluator_->PrepareForEvaluation(false, true);
+        check_stop();
         for (std::size_t i = 0; i < views_.size(); ++i)
             tried.residuals.push_back(evaluator_->residuals(i));
     }
@@ -220,6 +193,7 @@ bool FitRun::explore_coatings() {
     evaluator_->PrepareForEvaluation(true, true);
     other_minima_.clear();
     for (std::size_t k = 1; k < minima.size(); ++k) {
+        check_stop();
         if (search.alike(minima[k].minimum.x, best.minimum.x)) continue;
         auto difference = minima[k].residuals;
         for (std::size_t i = 0; i < difference.size(); ++i)
@@ -239,6 +213,8 @@ bool FitRun::explore_coatings() {
 
 void FitRun::settle(int most_linearisations) {
     if (layout_.geometry.empty() && !layout_.place) return;
+    std::optional<FitMinimum> best;
+    int halvings = 0;
     for (int turn = 0; turn < most_linearisations; ++turn) {
         double moved = 0.0;
         for (std::size_t k = layout_.coatings.size(); k < layout_.count(); ++k)
@@ -246,9 +222,22 @@ void FitRun::settle(int most_linearisations) {
                 moved = std::max(moved, std::abs(evaluator_->x[k] - evaluator_->linearised_at[k]));
         build();
         evaluator_->linearised_at = evaluator_->x;
+        // What a straight model promises may not be so: half of the way, while it is not.
+        const double cost = cost_now();
+        check_stop();
+        if (best && cost > best->cost + most_worse && halvings < most_halvings) {
+            ++halvings;
+            --turn;
+            for (std::size_t k = 0; k < evaluator_->x.size(); ++k)
+                evaluator_->x[k] = std::midpoint(evaluator_->x[k], best->x[k]);
+            continue;
+        }
+        halvings = 0;
+        cost_ = cost;
+        best = standing();
         if (turn > 0 && moved < settled) {
             solve(final_iterations);
-            break;
+            return;
         }
         linearise();
         solve(final_iterations);

@@ -13,6 +13,8 @@ namespace {
 /// Ghosts whose whole signal, times this for coatings that are other than at the start, is below
 /// one standard deviation are not carried along.
 constexpr double brighter_at_most = 6.0;
+/// The same where either of its coatings may turn out to be none: 4 % in place of 0.5 %, twice.
+constexpr double brighter_uncoated = 64.0;
 /// A parameter is not felt when the photographs narrow its prior by less than this share.
 constexpr double felt = 1e-3;
 
@@ -20,16 +22,19 @@ constexpr double felt = 1e-3;
 
 void FitRun::look_at_start() {
     evaluator_ = std::make_unique<FitEvaluator>(layout_, views_, *weights_, request_.threads);
+    evaluator_->set_stop(stop_);
     evaluator_->start_gains();
     // Ghosts below the noise are left out, with the bound.
     double left_out2 = 0.0, loudest = 0.0;
     std::vector<bool> keep(scene_->ghosts.size(), false);
     std::vector<std::vector<double>> found;
+    const double brighter = request_.kinds.empty() ? brighter_at_most : brighter_uncoated;
     for (std::size_t i = 0; i < views_.size(); ++i) {
         found.push_back(signals(i));
+        check_stop();
         for (std::size_t g = 0; g < found[i].size(); ++g) {
             loudest = std::max(loudest, found[i][g]);
-            if (brighter_at_most * found[i][g] >= 1.0) keep[views_[i].bases[g].ghost] = true;
+            if (brighter * found[i][g] >= 1.0) keep[views_[i].bases[g].ghost] = true;
         }
     }
     if (loudest < 5.0)
@@ -46,7 +51,13 @@ void FitRun::look_at_start() {
             if (!keep[views_[i].bases[g].ghost]) {
                 left_out2 += found[i][g] * found[i][g];
                 ++report_.ghosts_left_out;
+                report_.left_out.push_back(
+                    {.name = ghostlight::name(scene_->ghosts[views_[i].bases[g].ghost],
+                                              listed_.lens.surfaces.size()),
+                     .photo = i,
+                     .at_most = brighter_at_most * found[i][g]});
             }
+    std::ranges::stable_sort(report_.left_out, std::ranges::greater{}, &LeftOutGhost::at_most);
     report_.left_out_signal_to_noise = std::sqrt(left_out2);
     for (FitView& view : views_)
         std::erase_if(view.bases, [&](const GhostBasis& basis) { return !keep[basis.ghost]; });
@@ -67,10 +78,7 @@ void FitRun::look_at_start() {
     // What no visible ghost feels is named and held.
     drop_unfelt();
     evaluator_->start_gains();
-    evaluator_->PrepareForEvaluation(true, true);
-    const auto info = information(*evaluator_, FitLoss::none, 1.0, request_.ghost_error);
-    const Eigen::MatrixXd covariance = covariance_of(info);
-    start_errors_ = covariance.diagonal().cwiseSqrt();
+    expect_errors();
     for (std::size_t i = 0; i < views_.size(); ++i) {
         start_models_.push_back(evaluator_->model(i));
         start_shares_.push_back(shares(i));
@@ -82,9 +90,18 @@ void FitRun::look_at_start() {
     tell(0.1);
 }
 
+void FitRun::expect_errors() {
+    evaluator_->PrepareForEvaluation(true, true);
+    check_stop();
+    const auto info = information(*evaluator_, FitLoss::none, 1.0, request_.ghost_error, stop_);
+    check_stop();
+    start_errors_ = covariance_of(info).diagonal().cwiseSqrt();
+}
+
 void FitRun::drop_unfelt() {
     evaluator_->start_gains();
     evaluator_->PrepareForEvaluation(true, true);
+    check_stop();
     const std::size_t count = layout_.count();
     std::vector<double> sums(layout_.lens_count(), 0.0);
     for (std::size_t i = 0; i < views_.size(); ++i)
@@ -109,7 +126,7 @@ void FitRun::drop_unfelt() {
     if (kept.lens_count() == 0)
         throw Error({.problem = "no visible ghost feels any of the variables",
                      .file = photos_.front().photo.file,
-                     .where = "--vary",
+                     .where = "what is varied",
                      .found = fmt::format("{} variables", sums.size()),
                      .expected = "variables on surfaces that take part in visible ghosts"});
     if (not_felt_.empty()) return;

@@ -20,14 +20,65 @@ void correlate(const RowMatrix& from, int width, int height, bool along_x, RowMa
             }
 }
 
+/// Of a sample: how well the model's points and chords place a ghost, and its rim.
+constexpr double place_error = 0.02;
+
+/// A ghost's light in one channel over its patch.
+std::vector<double> light_of(const GhostBasis& basis, const GhostWeights& weights,
+                             std::size_t channel) {
+    std::vector<double> coefficients, light;
+    weights.coefficients(basis, coefficients, nullptr);
+    for (int row = 0; row < basis.rows; ++row)
+        for (int column = 0; column < basis.columns; ++column) {
+            const float* b = basis.at(basis.first_column + column, basis.first_row + row);
+            double sum = 0.0;
+            for (std::size_t r = 0; r < basis.width(); ++r)
+                sum += static_cast<double>(b[r]) * coefficients[3 * r + channel];
+            light.push_back(sum);
+        }
+    return light;
+}
+
+template <class Visit>
+void for_each_sample(const GhostBasis& basis, int width, const Visit& visit) {
+    for (int y = 0; y < basis.rows; ++y)
+        for (int x = 0; x < basis.columns; ++x)
+            visit(static_cast<std::size_t>((basis.first_row + y) * width + basis.first_column + x),
+                  x, y);
+}
+
+/// What a sample of a patch gains by the whole ghost's light, by moving it a sample along x or y,
+/// and by making it larger by a sample at its edge.
+struct GhostChange {
+    double light, x, y, size;
+};
+GhostChange change_of(const GhostBasis& basis, const std::vector<double>& light, int x, int y) {
+    auto at = [&](int column, int row) {
+        return column < 0 || row < 0 || column >= basis.columns || row >= basis.rows
+                   ? 0.0
+                   : light[static_cast<std::size_t>(row * basis.columns + column)];
+    };
+    // The patch may end where the frame does: no step there.
+    auto slope = [](double before, double here, double after, bool first, bool last) {
+        return 0.5 * ((last ? here : after) - (first ? here : before));
+    };
+    const double here = at(x, y);
+    const double dx = slope(at(x - 1, y), here, at(x + 1, y), x == 0, x + 1 == basis.columns),
+                 dy = slope(at(x, y - 1), here, at(x, y + 1), y == 0, y + 1 == basis.rows);
+    const double half = std::max(1.0, 0.5 * std::max(basis.columns, basis.rows));
+    return {here, dx, dy,
+            ((x + 0.5 - 0.5 * basis.columns) * dx + (y + 0.5 - 0.5 * basis.rows) * dy) / half};
+}
+
 }  // namespace
 
 FitInformation information(const FitEvaluator& evaluator, FitLoss loss, double loss_scale,
-                           double ghost_error) {
+                           double ghost_error, const std::stop_token& stop) {
     const auto count = static_cast<Eigen::Index>(evaluator.layout().count());
     FitInformation info{Eigen::MatrixXd::Identity(count, count),
                         Eigen::MatrixXd::Identity(count, count)};
     const auto rho = make_loss(loss, loss_scale);
+    if (evaluator.stopped()) return info;
     auto& views = const_cast<FitEvaluator&>(evaluator).views();
     auto& weights = const_cast<FitEvaluator&>(evaluator).weights();
     for (std::size_t i = 0; i < views.size(); ++i) {
@@ -44,6 +95,7 @@ FitInformation information(const FitEvaluator& evaluator, FitLoss loss, double l
             if (rho) rho->Evaluate(squares, out);
             roots[s] = std::sqrt(std::max(0.0, out[1]));
         }
+        std::vector<Eigen::VectorXd> places(3 * view.bases.size(), Eigen::VectorXd::Zero(count));
         for (std::size_t c = 0; c < 3; ++c) {
             RowMatrix j(samples, count);
             for (Eigen::Index s = 0; s < samples; ++s) {
@@ -59,27 +111,29 @@ FitInformation information(const FitEvaluator& evaluator, FitLoss loss, double l
             correlate(once, width, height, false, twice);
             info.spread.noalias() += j.transpose() * twice;
             // Each ghost's light may be off as a whole.
-            if (ghost_error <= 0.0) continue;
-            for (const GhostBasis& basis : view.bases) {
-                std::vector<double> coefficients;
-                weights.coefficients(basis, coefficients, nullptr);
+            const double off = std::hypot(ghost_error, view.curve_error);
+            if (off <= 0.0) continue;
+            for (std::size_t g = 0; g < view.bases.size(); ++g) {
+                if (stop.stop_requested()) return info;
+                const std::vector<double> light = light_of(view.bases[g], weights, c);
                 Eigen::VectorXd moved = Eigen::VectorXd::Zero(count);
-                for (int row = basis.first_row; row < basis.first_row + basis.rows; ++row)
-                    for (int column = basis.first_column;
-                         column < basis.first_column + basis.columns; ++column) {
-                        const auto s = static_cast<std::size_t>(row * width + column);
-                        if (roots[s] == 0.0) continue;
-                        const float* b = basis.at(column, row);
-                        double light = 0.0;
-                        for (std::size_t r = 0; r < basis.width(); ++r)
-                            light += static_cast<double>(b[r]) * coefficients[3 * r + c];
-                        const double change = evaluator.gain(i, c) * light * roots[s] /
-                                              view.scales[s].sigma(evaluator.model(i)[3 * s + c]);
-                        moved += change * j.row(static_cast<Eigen::Index>(s)).transpose();
-                    }
-                info.spread.noalias() += ghost_error * ghost_error * moved * moved.transpose();
+                for_each_sample(view.bases[g], width, [&](std::size_t s, int x, int y) {
+                    if (roots[s] == 0.0) return;
+                    const double change = evaluator.gain(i, c) * roots[s] /
+                                          view.scales[s].sigma(evaluator.model(i)[3 * s + c]);
+                    const auto row = j.row(static_cast<Eigen::Index>(s)).transpose();
+                    const GhostChange by = change_of(view.bases[g], light, x, y);
+                    moved += change * by.light * row;
+                    places[3 * g] += change * by.x * row;
+                    places[3 * g + 1] += change * by.y * row;
+                    places[3 * g + 2] += change * by.size * row;
+                });
+                info.spread.noalias() += off * off * moved * moved.transpose();
             }
         }
+        // And so may its place and its size, in all channels together.
+        for (const Eigen::VectorXd& moved : places)
+            info.spread.noalias() += place_error * place_error * moved * moved.transpose();
     }
     return info;
 }
@@ -109,7 +163,8 @@ double scatter_of_difference(const FitEvaluator& evaluator,
                 for (std::size_t c = 0; c < 3 && view.data.used[s]; ++c)
                     along[c] += difference[i][3 * s + c] * evaluator.gain(i, c) * *one.at(s, c) /
                                 view.scales[s].sigma(evaluator.model(i)[3 * s + c]);
-            for (const double each : along) scatter += ghost_error * ghost_error * each * each;
+            const double off = std::hypot(ghost_error, view.curve_error);
+            for (const double each : along) scatter += off * off * each * each;
         }
     }
     return size > 0.0 ? std::max(1.0, scatter / size) : 1.0;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 
+#include <stop_token>
 #include <vector>
 
 #include "core/fit/fit_evaluator.h"
@@ -15,9 +16,9 @@ struct FitInformation {
     /// pixels, and each ghost's light may be off as a whole by `ghost_error`.
     Eigen::MatrixXd spread;
 };
-/// Needs PrepareForEvaluation(true, …) before.
+/// Needs PrepareForEvaluation(true, …) before. When stopped, what comes back is no information.
 FitInformation information(const FitEvaluator& evaluator, FitLoss loss, double loss_scale,
-                           double ghost_error);
+                           double ghost_error, const std::stop_token& stop = {});
 
 /// By how much the difference of two pictures' χ² scatters beyond that of independent samples:
 /// δᵀ C δ / δᵀ δ, δ the difference of their residuals (3 a sample, by photograph), C the covariance

@@ -32,6 +32,12 @@ std::string name(FitLoss loss);
 
 struct FitLook;
 
+/// A kind of coating that a surface may have: its λ0 (or thickness, or reflectance) is fitted.
+struct CoatingKind {
+    std::string name;
+    Coating coating;
+};
+
 struct FitRequest {
     Spectrum spectrum = StandardLight{};
     std::vector<FitParameter> vary;
@@ -49,11 +55,19 @@ struct FitRequest {
     bool fit_shading = true;
     int starts = 6;                     ///< first guesses of the coatings, the lens's own first
     std::vector<std::string> left_out;  ///< ghosts by name that do not count
-    std::size_t suggestions = 0;        ///< light angles tried for the next photograph
+    /// To choose from on each surface, the strongest first; empty: kinds stay as they are listed.
+    std::vector<CoatingKind> kinds = {};
+    std::vector<std::size_t> kind_rows = {};  ///< where, from 0; empty: where coatings are varied
+    /// Numbers of `vary` whose profile likelihood is wanted.
+    std::vector<std::size_t> profiled = {};
+    int bootstrap = 0;            ///< photographs drawn from the fitted model, 0: none
+    std::size_t suggestions = 0;  ///< light angles tried for the next photograph
     std::uint64_t seed = 1;
     unsigned threads = 0;
     /// Called after every iteration, on the fit's thread; may wait, which pauses the fit.
     std::function<void(const FitLook&)> look = {};
+    /// Told which part of the work begins, in words, on the fit's thread.
+    std::function<void(const std::string&)> stage = {};
 };
 
 /// How well a number is known.
@@ -78,6 +92,20 @@ struct FittedNumber {
     std::vector<double> other_values = {};
 };
 
+/// χ² against one number with all others fitted to it: intervals that need not be symmetric.
+struct FittedProfile {
+    std::size_t number = 0;
+    std::vector<double> values, chi2;  ///< above the fit's own, rising values
+    double low = 0.0, high = 0.0;      ///< where it is 3.84: 95 %; where looking ended, if before
+};
+
+/// A number in fits to photographs that were drawn from the fitted model and its errors.
+struct BootstrappedNumber {
+    std::size_t number = 0;
+    double mean = 0.0, scatter = 0.0;
+    double low = 0.0, high = 0.0;  ///< the middle 95 % of the draws
+};
+
 /// Another minimum of the cost that the photographs do not exclude.
 struct OtherMinimum {
     double chi2_above = 0.0;  ///< by which its χ² is higher, of independent samples
@@ -90,6 +118,20 @@ struct UnknownDirection {
     std::vector<std::pair<std::size_t, double>> parts;  ///< number, share; largest first
 };
 
+/// One kind of coating on one surface, everything else fitted with it.
+struct KindTried {
+    std::string name;
+    std::size_t numbers = 0;  ///< of the coating that are fitted
+    double chi2_above = 0.0;  ///< by which χ² is higher than of the kind with the lowest
+    double bic_above = 0.0;   ///< χ² + numbers × ln(values) over that of the best (Schwarz 1978)
+    double share = 0.0;       ///< of the odds: exp(−BIC/2) over the sum of all
+};
+struct SurfaceKinds {
+    std::size_t row = 0;
+    double signal_to_noise = 0.0;  ///< of the ghosts that turn there
+    std::vector<KindTried> tried;  ///< the best first
+};
+
 /// What one ghost does in the fit.
 struct FittedGhost {
     std::string name;
@@ -100,6 +142,15 @@ struct FittedGhost {
     /// together; NaN where it is merged with another.
     double gain_before = 1.0, gain_after = 1.0, gain_error = 0.0;
     std::string merged_with;  ///< a ghost whose picture it cannot be told from (overlap > 0.98)
+};
+
+/// A ghost that is not carried along, being below the noise.
+struct LeftOutGhost {
+    std::string name;
+    std::size_t photo = 0;
+    /// Its signal to noise is not above this, even where its coatings are six times as bright as at
+    /// the start.
+    double at_most = 0.0;
 };
 
 /// R of a coated surface that was varied, light from the air's side, normal incidence.
@@ -131,14 +182,20 @@ struct Suggestion {
 
 struct FitReport {
     std::vector<FittedNumber> numbers;
+    std::vector<FittedProfile> profiles;        ///< those asked for
+    std::vector<BootstrappedNumber> bootstrap;  ///< empty where none was asked for
+    FitLoss loss = FitLoss::cauchy;             ///< and its scale, standard deviations of a sample
+    double loss_scale = 4.0;
     std::vector<double> correlation;  ///< numbers × numbers, of those not held
     std::vector<double> covariance;
     std::vector<UnknownDirection> unknown;
     std::vector<OtherMinimum> other_minima;  ///< the likeliest first
     std::size_t rank = 0;                    ///< directions that the photographs determine
+    std::vector<SurfaceKinds> kinds;         ///< where kinds were chosen, the strongest first
     std::vector<FittedGhost> ghosts;         ///< visible ones, strongest first
     std::size_t ghosts_left_out = 0;
     double left_out_signal_to_noise = 0.0;  ///< of all of those together, at the start
+    std::vector<LeftOutGhost> left_out;     ///< those, strongest first
     std::vector<ReflectanceBand> bands;
     std::vector<FittedPhoto> photos;
     std::vector<double> histogram;  ///< of residuals in σ: shares of bins of 0.5 from −5 to 5

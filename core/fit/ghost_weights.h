@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "core/fit/fit_parameters.h"
@@ -12,15 +13,16 @@ namespace ghostlight {
 /// Weights of ghosts and their derivatives by the coatings: exact films with polarisation carried
 /// along each basis' rays, whose cosines and frames no coating moves, so that no ray is traced.
 /// Amplitudes of every interface are tabulated over the cosines that occur (cubic between them),
-/// with derivatives by ceres::Jet; the chain of Jones matrices is differentiated backwards.
+/// with derivatives by ceres::Jet (ghost_weight_tables.cpp); the chain of Jones matrices is
+/// differentiated backwards.
 class GhostWeights {
    public:
     /// `coatings`: parameters for which is_coating(). The bases and the scene must outlive this.
     GhostWeights(const FitScene& scene, const std::vector<const GhostBasis*>& bases,
                  const std::vector<FitParameter>& coatings, unsigned threads);
 
-    /// Tables for the coatings' values, one each.
-    void update(const std::vector<double>& values, bool slopes);
+    /// Tables for the coatings' values, one each. False when stopped: some are still the old ones.
+    bool update(const std::vector<double>& values, bool slopes, std::stop_token stop = {});
 
     /// A ghost's coefficients of the basis, nodes × pupil_terms × 3 (linear Rec.709), and their
     /// derivatives, P more values each: [(node, term, channel)][parameter].
@@ -28,6 +30,7 @@ class GhostWeights {
                       std::vector<double>* slopes) const;
 
    private:
+    static constexpr int table_nodes = 21;  ///< cosines of a table
     /// Of one interface seen from one side.
     struct Table {
         double low = 1.0, high = 0.0;  ///< cosines

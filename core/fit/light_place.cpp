@@ -69,8 +69,8 @@ LightDirection light_imaged_at(const OpticalSystem& system, const SensorPoint& p
                      .file = {},
                      .where = {},
                      .found = fmt::format("{:.3f} mm from the axis", radius_mm),
-                     .expected = "a place inside the lens's image circle; --sensor, --photo-width "
-                                 "or the lens may not belong to this photograph"});
+                     .expected = "a place inside the lens's image circle; the sensor's size, the "
+                                 "picture's width or the lens may not belong to this photograph"});
     return {0.5 * (low + high), azimuth_deg};
 }
 

@@ -93,7 +93,7 @@ MaskCounts mask_unusable(Photo& photo) {
     for (std::size_t i = 0; i < pixels; ++i) {
         float* rgb = &photo.rgb[3 * i];
         if (!std::isfinite(rgb[0] + rgb[1] + rgb[2])) {
-            photo.masked[i] = 1;
+            photo.masked[i] = mask_reason::not_a_number;
             rgb[0] = rgb[1] = rgb[2] = 0.0F;
             ++counts.not_a_number;
             continue;
@@ -118,38 +118,54 @@ MaskCounts mask_unusable(Photo& photo) {
                     const int x = column + dx, y = row + dy;
                     if (x < 0 || y < 0 || x >= photo.width_px || y >= photo.height_px) continue;
                     const auto w = static_cast<std::size_t>(photo.width_px);
-                    if (clipped[static_cast<std::size_t>(y) * w + static_cast<std::size_t>(x)])
-                        photo.masked[static_cast<std::size_t>(row) * w +
-                                     static_cast<std::size_t>(column)] = 1;
+                    char& masked = photo.masked[static_cast<std::size_t>(row) * w +
+                                                static_cast<std::size_t>(column)];
+                    if (!masked &&
+                        clipped[static_cast<std::size_t>(y) * w + static_cast<std::size_t>(x)])
+                        masked = mask_reason::saturated;
                 }
     if (counts.saturated + counts.not_a_number == pixels)
         fail(photo, "the photograph is saturated everywhere",
              fmt::format("every pixel at {:.4g} or above", photo.saturation), "a shorter exposure");
-    if (photo.noise.read > 0.0 || photo.noise.shot > 0.0) {
-        for (int row = 1; row + 1 < photo.height_px; ++row)
-            for (int column = 1; column + 1 < photo.width_px; ++column) {
-                const auto w = static_cast<std::size_t>(photo.width_px);
-                const auto i = static_cast<std::size_t>(row) * w + static_cast<std::size_t>(column);
-                if (photo.masked[i]) continue;
-                for (std::size_t c = 0; c < 3; ++c) {
-                    float most = -std::numeric_limits<float>::infinity();
-                    for (const std::size_t k :
-                         {i - 1, i + 1, i - w, i + w, i - w - 1, i - w + 1, i + w - 1, i + w + 1})
-                        most = std::max(most, photo.rgb[3 * k + c]);
-                    const double value = photo.rgb[3 * i + c];
-                    const double sigma =
-                        std::sqrt(photo.noise.shot * std::max(0.0, static_cast<double>(most)) +
-                                  photo.noise.read);
-                    if (value - static_cast<double>(most) > 10.0 * sigma &&
-                        value > 1.5 * static_cast<double>(most)) {
-                        photo.masked[i] = 1;
-                        ++counts.hot;
-                        break;
-                    }
+    if (photo.noise.read > 0.0 || photo.noise.shot > 0.0) counts.hot = mask_hot(photo);
+    return counts;
+}
+
+std::size_t mask_hot(Photo& photo) {
+    std::size_t count = 0;
+    const auto w = static_cast<std::size_t>(photo.width_px);
+    for (int row = 1; row + 1 < photo.height_px; ++row)
+        for (int column = 1; column + 1 < photo.width_px; ++column) {
+            const auto i = static_cast<std::size_t>(row) * w + static_cast<std::size_t>(column);
+            if (photo.masked[i]) continue;
+            for (std::size_t c = 0; c < 3; ++c) {
+                float most = -std::numeric_limits<float>::infinity();
+                for (const std::size_t k :
+                     {i - 1, i + 1, i - w, i + w, i - w - 1, i - w + 1, i + w - 1, i + w + 1})
+                    most = std::max(most, photo.rgb[3 * k + c]);
+                const double value = photo.rgb[3 * i + c];
+                const double sigma = std::sqrt(
+                    photo.noise.shot * std::max(0.0, static_cast<double>(most)) + photo.noise.read);
+                if (value - static_cast<double>(most) > 10.0 * sigma &&
+                    value > 1.5 * static_cast<double>(most)) {
+                    photo.masked[i] = mask_reason::hot;
+                    ++count;
+                    break;
                 }
             }
-    }
-    return counts;
+        }
+    return count;
+}
+
+MaskCounts count_masked(const Photo& photo) {
+    std::array<std::size_t, mask_reason::cropped + 1> counts{};
+    for (const char reason : photo.masked) ++counts[static_cast<std::size_t>(reason)];
+    return {.saturated = counts[mask_reason::saturated],
+            .not_a_number = counts[mask_reason::not_a_number],
+            .hot = counts[mask_reason::hot],
+            .light = counts[mask_reason::light],
+            .painted = counts[mask_reason::painted],
+            .cropped = counts[mask_reason::cropped]};
 }
 
 Photo merged(const std::vector<Photo>& exposures) {
@@ -190,7 +206,7 @@ Photo merged(const std::vector<Photo>& exposures) {
             }
         }
         sum.masked.resize(sum.pixels(), 0);
-        sum.masked[i] = weights[0] > 0.0 ? 0 : 1;
+        sum.masked[i] = weights[0] > 0.0 ? char{0} : shortest->masked[i];
         for (std::size_t c = 0; c < 3; ++c)
             sum.rgb[3 * i + c] =
                 static_cast<float>(weights[c] > 0.0 ? total[c] / weights[c]
@@ -222,10 +238,10 @@ LightSpot find_light(const Photo& photo) {
     const bool clipped = static_cast<double>(highest) >= photo.saturation;
     const double limit = clipped ? photo.saturation : 0.5 * static_cast<double>(highest);
     if (!(limit > 3.0 * mean) && !clipped)
-        fail(
-            photo, "no light stands out in the photograph",
-            fmt::format("brightest value {:.3g}, mean {:.3g}", highest, mean),
-            "a light in the frame, or its place given as --light X,Y or --light deg:FIELD:AZIMUTH");
+        fail(photo, "no light stands out in the photograph",
+             fmt::format("brightest value {:.3g}, mean {:.3g}", highest, mean),
+             "a light in the frame, or its place given in place of auto: X,Y in pixels, or "
+             "deg:FIELD:AZIMUTH where it is outside");
     std::vector<char> seen(photo.pixels(), 0);
     LightSpot best;
     const auto w = static_cast<std::size_t>(photo.width_px);
@@ -262,14 +278,51 @@ LightSpot find_light(const Photo& photo) {
     return best;
 }
 
+double light_core_px(const Photo& photo, double column, double row, double least_px) {
+    constexpr double most_share = 0.08, ring_share = 1.0 / 400.0, above_level = 1.5;
+    const double most_px = most_share * photo.width_px;
+    if (!(least_px < most_px)) return least_px;
+    const double ring_px = std::max(1.0, ring_share * photo.width_px);
+    std::vector<double> sums(static_cast<std::size_t>(2.0 * most_px / ring_px) + 1), counts = sums;
+    const double reach_px = ring_px * static_cast<double>(sums.size());
+    auto from = [&](double middle) { return std::max(0, static_cast<int>(middle - reach_px)); };
+    auto to = [&](double middle, int size) {
+        return std::min(size, static_cast<int>(middle + reach_px) + 1);
+    };
+    for (int y = from(row); y < to(row, photo.height_px); ++y)
+        for (int x = from(column); x < to(column, photo.width_px); ++x) {
+            const double ring = std::hypot(x + 0.5 - column, y + 0.5 - row) / ring_px;
+            if (ring >= static_cast<double>(sums.size())) continue;
+            sums[static_cast<std::size_t>(ring)] += static_cast<double>(brightest(photo.at(x, y)));
+            counts[static_cast<std::size_t>(ring)] += 1.0;
+        }
+    std::vector<double> outer;
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+        if (counts[k] == 0.0) continue;
+        sums[k] /= counts[k];
+        if (static_cast<double>(k) * ring_px >= most_px) outer.push_back(sums[k]);
+    }
+    if (outer.empty()) return least_px;
+    const double level = median(outer);
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+        const double inner_px = static_cast<double>(k) * ring_px;
+        if (inner_px < least_px) continue;
+        if (counts[k] > 0.0 && sums[k] <= above_level * level) return std::min(inner_px, most_px);
+    }
+    return most_px;
+}
+
 void mask_disc(Photo& photo, double column, double row, double radius_px) {
     photo.masked.resize(photo.pixels(), 0);
     for (int y = 0; y < photo.height_px; ++y)
-        for (int x = 0; x < photo.width_px; ++x)
-            if (std::hypot(x + 0.5 - column, y + 0.5 - row) <= radius_px)
+        for (int x = 0; x < photo.width_px; ++x) {
+            char& masked =
                 photo
                     .masked[static_cast<std::size_t>(y) * static_cast<std::size_t>(photo.width_px) +
-                            static_cast<std::size_t>(x)] = 1;
+                            static_cast<std::size_t>(x)];
+            if (!masked && std::hypot(x + 0.5 - column, y + 0.5 - row) <= radius_px)
+                masked = mask_reason::light;
+        }
 }
 
 }  // namespace ghostlight

@@ -17,14 +17,22 @@ struct PhotoNoise {
     bool operator==(const PhotoNoise&) const = default;
 };
 
+/// Why a pixel says nothing about the flare.
+namespace mask_reason {
+inline constexpr char saturated = 1, not_a_number = 2, hot = 3, light = 4, painted = 5, cropped = 6;
+}
+
 /// A photograph, linear in the light. Row 0 is the lowest y, column 0 the lowest x, as seen on the
 /// sensor plane, like FlareImage; files hold upright pictures (upright_picture() converts).
 struct Photo {
     int width_px = 0, height_px = 0;
     std::vector<float> rgb;    ///< 3 a pixel; 1 is where the camera saturates
-    std::vector<char> masked;  ///< 1 a pixel: not 0 where it says nothing about the flare
+    std::vector<char> masked;  ///< 1 a pixel: 0, or a mask_reason
     double saturation = 1.0;   ///< values from here on are clipped; infinite where nothing is
     PhotoNoise noise;
+    /// Relative: how far values may be off because the curve that made them linear is a guess. 0
+    /// where the camera wrote linear values.
+    double curve_error = 0.0;
     std::optional<double> exposure_s, f_number, focal_length_mm;
     std::string camera, taken;
     std::string file;
@@ -43,13 +51,21 @@ struct Photo {
 /// against the level; a robust line through their medians.
 PhotoNoise estimated_noise(const Photo& photo);
 
-/// Masks what is clipped (and its neighbours, into which light spills), what is not a number, and
-/// pixels that stand out of all their eight neighbours by ten standard deviations (hot pixels).
-/// Returns how many each. Throws Error where nothing is left: all black, all saturated, all NaN.
+/// Pixels by reason.
 struct MaskCounts {
-    std::size_t saturated = 0, not_a_number = 0, hot = 0;
+    std::size_t saturated = 0, not_a_number = 0, hot = 0, light = 0, painted = 0, cropped = 0;
+    std::size_t all() const { return saturated + not_a_number + hot + light + painted + cropped; }
 };
+MaskCounts count_masked(const Photo& photo);
+
+/// Masks what is clipped (and its neighbours, into which light spills), what is not a number, and,
+/// where the noise is known, hot pixels. Returns how many each, neighbours of the clipped ones not
+/// among them. Throws Error where nothing is left: all black, all saturated, all NaN.
 MaskCounts mask_unusable(Photo& photo);
+
+/// Masks pixels that stand out of all their eight neighbours by ten standard deviations. Returns
+/// how many. Needs `noise`.
+std::size_t mask_hot(Photo& photo);
 
 /// Exposures of one scene merged into one: each pixel the mean of those that are not masked there,
 /// weighted by exposure time over noise variance (the inverse of each value's variance after
@@ -67,7 +83,12 @@ struct LightSpot {
 };
 LightSpot find_light(const Photo& photo);
 
-/// Masks a disc, pixels of the sensor's frame.
+/// How far the light's own image and the core of its starburst reach, pixels from its middle: to
+/// where rings about it are no more than half above the level further out, at least `least_px` and
+/// at most 8 % of the width.
+double light_core_px(const Photo& photo, double column, double row, double least_px);
+
+/// Masks a disc as the light's, pixels of the sensor's frame.
 void mask_disc(Photo& photo, double column, double row, double radius_px);
 
 }  // namespace ghostlight

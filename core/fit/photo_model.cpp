@@ -16,13 +16,13 @@ constexpr int band_rows = 8;
 
 ModelPicture ghost_picture(const std::vector<GhostBasis>& bases, const GhostWeights& weights,
                            const PixelFrame& frame, std::size_t coatings, bool slopes,
-                           unsigned threads) {
+                           unsigned threads, std::stop_token stop) {
     ModelPicture picture;
     picture.columns = slopes ? 1 + coatings : 1;
     const std::size_t width = 3 * picture.columns;
     // Coefficients of every ghost: rows are nodes and terms, columns channel by channel.
     std::vector<Matrix> right(bases.size());
-    parallel_for(bases.size(), threads, {}, [&](std::size_t g) {
+    parallel_for(bases.size(), threads, stop, [&](std::size_t g) {
         std::vector<double> values, by;
         weights.coefficients(bases[g], values, slopes ? &by : nullptr);
         const std::size_t rows = bases[g].width();
@@ -38,11 +38,12 @@ ModelPicture ghost_picture(const std::vector<GhostBasis>& bases, const GhostWeig
                         static_cast<float>(by[(3 * r + c) * coatings + p]);
             }
     });
+    if (stop.stop_requested()) return picture;
     picture.values.assign(static_cast<std::size_t>(frame.width_px) *
                               static_cast<std::size_t>(frame.height_px) * width,
                           0.0);
     const int bands = (frame.height_px + band_rows - 1) / band_rows;
-    parallel_for(static_cast<std::size_t>(bands), threads, {}, [&](std::size_t band) {
+    parallel_for(static_cast<std::size_t>(bands), threads, stop, [&](std::size_t band) {
         const int first = static_cast<int>(band) * band_rows;
         const int last = std::min(frame.height_px, first + band_rows);
         Matrix product;

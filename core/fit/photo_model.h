@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <stop_token>
 #include <vector>
 
 #include "core/fit/fit_data.h"
@@ -23,10 +24,11 @@ struct ModelPicture {
     }
 };
 
-/// Σ over ghosts of basis × coefficients, and its derivatives by the coatings.
+/// Σ over ghosts of basis × coefficients, and its derivatives by the coatings. When stopped, what
+/// comes back is no picture.
 ModelPicture ghost_picture(const std::vector<GhostBasis>& bases, const GhostWeights& weights,
                            const PixelFrame& frame, std::size_t coatings, bool slopes,
-                           unsigned threads);
+                           unsigned threads, std::stop_token stop = {});
 
 /// One ghost alone, without derivatives.
 ModelPicture one_ghost(const GhostBasis& basis, const GhostWeights& weights,

@@ -43,7 +43,7 @@ Omission fringes(const FlareScene& scene, const FlareRequest& request, const Fla
             ghost_fringes(system, paraxial_ghost(system, paths[g]), pitch_mm);
         const double change =
             doubt *
-            fringes_change(drawn[g]->moments, found.first_fringe_px / first_maximum_w * pitch_mm);
+            fringes_change(drawn[g]->spot, found.first_fringe_px / first_maximum_w * pitch_mm);
         // Wider than the ghost, they change all of its light: what is missing is elsewhere too.
         *omission.bound_mm2 += std::min(2.0, change) * drawn[g]->flux_mm2;
     }
@@ -80,12 +80,9 @@ Omission starburst(const FlareScene& scene, const FlareRequest& request) {
 
 }  // namespace
 
-double fringes_change(const GhostMoments& moments, double width_mm) {
-    // Half axes are twice the root of the second moments along them.
-    const double mean = 0.5 * (moments.xx_mm2 + moments.yy_mm2);
-    const double off = std::hypot(0.5 * (moments.xx_mm2 - moments.yy_mm2), moments.xy_mm2);
-    const double a = 2.0 * std::sqrt(std::max(0.0, mean + off));
-    const double b = 2.0 * std::sqrt(std::max(0.0, mean - off));
+double fringes_change(const GhostSpot& spot, double width_mm) {
+    const auto [least, most] = spot.sigmas_mm();
+    const double a = 2.0 * most, b = 2.0 * least;  // half axes of an even ellipse
     if (!(a * b > 0.0)) return 2.0;
     const double rim_over_area = std::sqrt(2.0 * (a * a + b * b)) / (a * b);
     return rim_over_area * width_mm / std::numbers::pi;

@@ -10,6 +10,7 @@
 #include "core/flare/color_mesh.h"
 #include "core/flare/draw_picture.h"
 #include "core/flare/ghost_measures.h"
+#include "core/flare/ghost_spot.h"
 #include "core/flare/ghost_weights.h"
 #include "core/flare/grid_light.h"
 #include "core/flare/node_placement.h"
@@ -72,7 +73,7 @@ class FirstLook {
         const FrameLight on_frame = light_on_frame(nodes, frame);
         planned.flux_mm2 = on_frame.flux_mm2;
         planned.whole_flux_mm2 = on_frame.whole_flux_mm2;
-        planned.moments = moments_of(nodes, frame);
+        planned.spot = spot_of(nodes, gray_channels, frame);
         if (!on_frame.passes || !on_frame.near_frame) {
             planned.fate = on_frame.passes ? GhostFate::off_sensor : GhostFate::nothing_passes;
             planned.flux_mm2 = 0.0;

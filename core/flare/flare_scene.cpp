@@ -6,6 +6,7 @@
 #include "core/flare/color_raster.h"
 #include "core/flare/colored_samples.h"
 #include "core/flare/grid_light.h"
+#include "core/flare/propagated_masks.h"
 
 namespace ghostlight {
 namespace {
@@ -76,7 +77,8 @@ FlareScene flare_scene(const Prescription& lens, const Spectrum& spectrum, int s
             .coating_model = model,
             .films = std::move(films),
             .ghosts = std::move(ghosts),
-            .dirt = lens.stop.dirt};
+            .dirt = lens.stop.dirt,
+            .propagated_masks = std::make_shared<PropagatedMasks>()};
 }
 
 template <int C>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "core/flare/film_tables.h"
@@ -10,6 +11,8 @@
 #include "core/optics/prescription.h"
 
 namespace ghostlight {
+
+class PropagatedMasks;
 
 /// A lens and the spectrum of its light, compiled for pictures: what does not change while the
 /// light moves.
@@ -29,6 +32,7 @@ struct FlareScene {
     FilmTables films;
     std::vector<GhostPath> ghosts;
     StopDirt dirt;
+    std::shared_ptr<PropagatedMasks> propagated_masks;  ///< never null
 
     bool is_gray() const { return samples.size() == 1; }
     const OpticalSystem& system() const { return geometry[main]; }

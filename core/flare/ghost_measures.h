@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "core/flare/color_mesh.h"
-#include "core/flare/flare_plan.h"
 #include "core/ghosts/mirror_grid.h"
 
 namespace ghostlight {
@@ -51,8 +50,5 @@ struct FrameLight {
     bool passes = false, near_frame = false;
 };
 FrameLight light_on_frame(const MeshNodes& nodes, const PixelFrame& frame);
-
-/// Where that light lands, on the frame or beside it.
-GhostMoments moments_of(const MeshNodes& nodes, const PixelFrame& frame);
 
 }  // namespace ghostlight

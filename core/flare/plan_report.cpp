@@ -31,27 +31,18 @@ OfFate sum_of(const FlarePlan& plan, const PlanProof* proof, GhostFate fate) {
     return sum;
 }
 
-/// Light in the wrong place is missing from the right one too.
-double veil_change_mm2(const FlarePlan& plan) {
-    double veil_mm2 = 0.0;
-    for (const PlannedGhost& ghost : plan.ghosts)
-        if (ghost.fate == GhostFate::folded) veil_mm2 += ghost.flux_mm2;
-    return 2.0 * veil_mm2;
-}
-
 }  // namespace
 
 double bounded_error(const FlarePlan& plan) {
-    if (!(plan.flux_mm2 > 0.0)) return 0.0;
-    return (sum_of(plan, nullptr, GhostFate::left_out).bound_mm2 + veil_change_mm2(plan) +
-            doubt * sum_of(plan, nullptr, GhostFate::drawn).error_mm2) /
-           plan.flux_mm2;
+    const double light_mm2 = plan.flux_mm2 + plan.folded_mm2;
+    if (!(light_mm2 > 0.0)) return 0.0;
+    return (plan.left_out_mm2 + 2.0 * plan.folded_mm2 + doubt * plan.error_mm2) / light_mm2;
 }
 
 PlanReport plan_report(const FlareScene& scene, const FlareRequest& request, const FlarePlan& plan,
                        const PlanProof* proof) {
     PlanReport report;
-    report.flux_mm2 = plan.flux_mm2;
+    report.flux_mm2 = plan.flux_mm2 + plan.folded_mm2;
     auto add = [&](std::string what, std::string why, std::size_t ghosts,
                    std::optional<double> bound_mm2, bool proven) {
         if (ghosts == 0) return;
@@ -66,8 +57,9 @@ PlanReport plan_report(const FlareScene& scene, const FlareRequest& request, con
     add("ghosts left out", "the bound of their light is below their share of the error",
         left_out.ghosts, left_out.bound_mm2, true);
     const OfFate folded = sum_of(plan, proof, GhostFate::folded);
+    // Light in the wrong place is missing from the right one too.
     add("ghosts folded into the veil", "too faint and broad to be seen by themselves",
-        folded.ghosts, veil_change_mm2(plan), false);
+        folded.ghosts, 2.0 * plan.folded_mm2, false);
     const OfFate beside = sum_of(plan, proof, GhostFate::off_sensor);
     add("ghosts beside the sensor", "none of the light that was found lands on it", beside.ghosts,
         missed(beside), true);

@@ -95,11 +95,18 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
             release(probed[batch.first + k]);
         }
     }
+    if (request.ringing) {
+        const auto rang = Clock::now();
+        const auto rung = ringing_of(scene, request, planner, probed, stop);
+        if (!rung || !draw_ringing(*rung, frame, request.threads, stop, picture))
+            return std::nullopt;
+        for (const RungMesh& mesh : *rung) image.ringing.push_back(mesh.report);
+        image.times.ringing_ms = ms_since(rang);
+    }
     if (!picture.finish(request.threads, stop, image) ||
         (highlight && !finish_highlight(*highlight, request.threads, stop, image)))
         return std::nullopt;
     image.plan = plan_of(scene, request, probed);
-    if (request.ringing && !add_ringing(scene, request, stop, image)) return std::nullopt;
     image.times.total_ms = ms_since(began);
     return image;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/flare/ghost_measures.h"
+#include "core/flare/ghost_spot.h"
 #include "core/flare/ghost_weights.h"
 #include "core/flare/grid_light.h"
 #include "core/flare/picture_levels.h"
@@ -284,13 +285,13 @@ void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
     choose_level(chosen, mesh.edge_contrast * pixel_mm2, mesh.slope_contrast * pixel_mm2, planned);
 }
 
-MeshNodes GhostPlanner::landed(const ProbedGhost& ghost) const {
+GhostSpot GhostPlanner::spot(const ProbedGhost& ghost) const {
     MeshNodes nodes = placement_.place(ghost.grid);
     interpolate(ghost.grid,
                 ray_light<color_channels>(scene_, ghost.grid, ghost.weights,
                                           channel_shares<color_channels>(scene_, 0, 1)),
                 color_channels, nodes.cells, nodes.weights);
-    return nodes;
+    return spot_of(nodes, color_channels, placement_.frame());
 }
 
 GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {

@@ -65,12 +65,17 @@ class GhostPlanner {
     template <int C>
     void draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const;
 
-    /// The probe's rays as they land on the sensor, with their light in four channels a node.
-    MeshNodes landed(const ProbedGhost& ghost) const;
+    /// All its light with its colours, from the probe.
+    GhostSpot spot(const ProbedGhost& ghost) const;
 
     /// The same choices, its level from the first look, for an engine that traces and draws for
     /// itself.
     GhostDrawing prepare(ProbedGhost& ghost) const;
+
+    /// Rays of its main wavelength, without weights.
+    void trace_main(const ProbedGhost& ghost, Bundle<float>& rays) const {
+        trace(ghost, scene_.main, Weights::none, rays);
+    }
 
     const NodePlacement& placement() const { return placement_; }
     const BeamFrame& beam() const { return beam_; }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/flare/ghost_measures.h"
+#include "core/flare/ghost_spot.h"
 #include "core/flare/grid_light.h"
 #include "core/flare/planned_ghost.h"
 #include "core/ghosts/double_trace.h"
@@ -127,7 +128,7 @@ void GhostPlanner::weigh(ProbedGhost& ghost) const {
     const FrameLight light = light_on_frame(nodes, placement_.frame());
     planned.flux_mm2 = light.flux_mm2;
     planned.whole_flux_mm2 = light.whole_flux_mm2;
-    planned.moments = moments_of(nodes, placement_.frame());
+    planned.spot = spot_of(nodes, gray_channels, placement_.frame());
     if (!light.passes)
         planned.fate = GhostFate::nothing_passes;
     else if (!light.near_frame)

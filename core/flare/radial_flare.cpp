@@ -280,7 +280,7 @@ class RadialGhosts {
             flux[c] = area_mm2 * 0.5 * (a.light[c] + b.light[c]) / frame_.pixel_area_mm2();
         const double low = std::abs(a.y_px), high = std::abs(b.y_px);
         planned.whole_flux_mm2 += flux[C - 1] * frame_.pixel_area_mm2();
-        planned.moments.xx_mm2 += flux[C - 1] * 0.25 * (low * low + high * high);
+        planned.spot.xx_mm2 += flux[C - 1] * 0.25 * (low * low + high * high);
         if (a.y_px * b.y_px >= 0.0) {
             rings.push_back({low, high, flux});
             return;
@@ -326,8 +326,9 @@ class RadialGhosts {
                                  pixel_mm2;
         }
         if (planned.whole_flux_mm2 > 0.0)
-            planned.moments.xx_mm2 *= pixel_mm2 * pixel_mm2 / planned.whole_flux_mm2;
-        planned.moments.yy_mm2 = planned.moments.xx_mm2;
+            planned.spot.xx_mm2 *= pixel_mm2 * pixel_mm2 / planned.whole_flux_mm2;
+        planned.spot.yy_mm2 = planned.spot.xx_mm2;
+        planned.spot.flux_mm2.fill(planned.whole_flux_mm2);
         planned.allowance_mm2 = planned.error_mm2;
         if (!(planned.whole_flux_mm2 > 0.0))
             planned.fate = GhostFate::nothing_passes;
@@ -431,7 +432,8 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
 bool is_radial(const FlareScene& scene, const FlareRequest& request) {
     const StopMask& mask = scene.system().stop_mask;
     return request.light.field_deg == 0.0 && mask.blades == 0 && !mask.picture &&
-           !scene.system().sensor_face && !request.ringing && request.economies == PlanEconomies{};
+           !scene.system().sensor_face && !request.ringing && request.folded_share == 0.0 &&
+           request.economies == PlanEconomies{};
 }
 
 std::optional<FlareImage> render_radial(const FlareScene& scene, const FlareRequest& request,

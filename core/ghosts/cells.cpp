@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/ghosts/clip_shares.h"
+
 namespace ghostlight {
 
 template <class T>
@@ -99,45 +101,13 @@ SplitGrid<T> trace_grid(const OpticalSystem& system, const TracePath<T>& path,
 
 template <class T>
 Piece clip_triangle(const RayField<T>& field, const TriangleNodes& nodes, int triangle) {
-    // Clearances are interpolated in the triangle's own coordinates: corner k of the polygon is
-    // p = Σ share·node.
-    struct Corner {
-        double share[3];
-    };
-    Corner corners[Piece::max_corners] = {{{1, 0, 0}}, {{0, 1, 0}}, {{0, 0, 1}}};
-    int count = 3;
     Piece piece;
     piece.triangle = triangle;
-    for (const std::vector<T>& clearance : field.clearances) {
-        const double f[3] = {
-            static_cast<double>(clearance[static_cast<std::size_t>(nodes.node[0])]),
-            static_cast<double>(clearance[static_cast<std::size_t>(nodes.node[1])]),
-            static_cast<double>(clearance[static_cast<std::size_t>(nodes.node[2])])};
-        if (f[0] >= 0.0 && f[1] >= 0.0 && f[2] >= 0.0) continue;
-        piece.whole = false;
-        if (f[0] < 0.0 && f[1] < 0.0 && f[2] < 0.0) return piece;
-        if (count + 6 > Piece::max_corners) break;
-        auto value = [&](const Corner& c) {
-            return c.share[0] * f[0] + c.share[1] * f[1] + c.share[2] * f[2];
-        };
-        Corner kept[Piece::max_corners];
-        int kept_count = 0;
-        for (int k = 0; k < count; ++k) {
-            const Corner& a = corners[k];
-            const Corner& b = corners[(k + 1) % count];
-            const double va = value(a), vb = value(b);
-            if (va >= 0.0) kept[kept_count++] = a;
-            if ((va >= 0.0) != (vb >= 0.0)) {
-                const double t = va / (va - vb);
-                Corner& cut = kept[kept_count++];
-                for (int s = 0; s < 3; ++s)
-                    cut.share[s] = a.share[s] + t * (b.share[s] - a.share[s]);
-            }
-        }
-        count = kept_count;
-        if (count < 3) return piece;
-        std::copy_n(kept, count, corners);
-    }
+    const auto clipped = clip_shares<double>(field.clearances.size(), [&](std::size_t k, int s) {
+        return static_cast<double>(field.clearances[k][static_cast<std::size_t>(nodes.node[s])]);
+    });
+    piece.whole = clipped.whole;
+    if (clipped.count == 0) return piece;
     const Bundle<T>& rays = field.rays;
     // A failed ray's sensor point means nothing: it takes the mean of its valid neighbours'.
     double x[3], y[3], x_mean = 0.0, y_mean = 0.0;
@@ -156,8 +126,8 @@ Piece clip_triangle(const RayField<T>& field, const TriangleNodes& nodes, int tr
             x[s] = x_mean / valid;
             y[s] = y_mean / valid;
         }
-    for (int k = 0; k < count; ++k) {
-        const double* share = corners[k].share;
+    for (int k = 0; k < clipped.count; ++k) {
+        const double* share = clipped.corners[k].share;
         auto mixed = [&](const double* p) {
             return share[0] * p[0] + share[1] * p[1] + share[2] * p[2];
         };
@@ -170,7 +140,7 @@ Piece clip_triangle(const RayField<T>& field, const TriangleNodes& nodes, int tr
         };
         piece.corners[k] = {at(rays.u_mm), at(rays.v_mm), mixed(x), mixed(y), at(rays.weight)};
     }
-    piece.count = count;
+    piece.count = clipped.count;
     return piece;
 }
 

@@ -129,6 +129,20 @@ std::string band_chart(const ReflectanceBand& band) {
                       .y_from_zero = true});
 }
 
+std::string profile_chart(const FitReport& report, const FittedProfile& profile) {
+    const FitParameter& parameter = report.numbers[profile.number].parameter;
+    ChartCurve found{"all others fitted", chart_color(0), profile.values, profile.chi2};
+    ChartCurve expected{"by the standard error", chart_color(1), profile.values, {}};
+    for (const double each : profile.values)
+        expected.y.push_back(std::pow((each - report.numbers[profile.number].value) /
+                                          report.numbers[profile.number].standard_error,
+                                      2));
+    return chart_svg({.x_title = fmt::format("{}, {}", name(parameter), unit(parameter)),
+                      .y_title = "χ² above the fit's (95 %: 3.84)",
+                      .curves = {found, expected},
+                      .y_from_zero = true});
+}
+
 }  // namespace
 
 Table fit_table(const FitReport& report) {
@@ -151,6 +165,31 @@ Table fit_ghost_table(const FitReport& report) {
                               each.signal_to_noise, each.share_before, each.share_after,
                               each.gain_before, each.gain_after, each.gain_error,
                               each.merged_with.empty() ? Cell() : Cell(each.merged_with)});
+    return table;
+}
+
+Table fit_interval_table(const FitReport& report) {
+    Table table;
+    table.columns = {"number", "by", "value", "scatter", "low_95", "high_95"};
+    for (const FittedProfile& each : report.profiles) {
+        const FittedNumber& number = report.numbers[each.number];
+        table.rows.push_back({name(number.parameter), "profile likelihood", number.value, Cell(),
+                              each.low, each.high});
+    }
+    for (const BootstrappedNumber& each : report.bootstrap)
+        table.rows.push_back({name(report.numbers[each.number].parameter), "bootstrap", each.mean,
+                              each.scatter, each.low, each.high});
+    return table;
+}
+
+Table fit_kind_table(const FitReport& report) {
+    Table table;
+    table.columns = {"surface", "kind", "numbers", "chi2_above", "bic_above", "share"};
+    for (const SurfaceKinds& surface : report.kinds)
+        for (const KindTried& each : surface.tried)
+            table.rows.push_back({static_cast<std::int64_t>(surface.row + 1), each.name,
+                                  static_cast<std::int64_t>(each.numbers), each.chi2_above,
+                                  each.bic_above, each.share});
     return table;
 }
 
@@ -182,6 +221,23 @@ std::string fit_page(const FitReport& report, const std::string& lens, const std
         report.error_scale > 1.0
             ? fmt::format(" and are widened by {:.2f} for the misfit", report.error_scale)
             : "");
+    if (!report.profiles.empty() || !report.bootstrap.empty())
+        html += "<h2>Other intervals</h2>\n" +
+                html_table(fit_interval_table(report), {{"number", "number"},
+                                                        {"by", "by"},
+                                                        {"value", "value,<br>mean"},
+                                                        {"scatter", "scatter"},
+                                                        {"low_95", "95 % from"},
+                                                        {"high_95", "to"}});
+    for (const FittedProfile& each : report.profiles) html += profile_chart(report, each);
+    if (!report.kinds.empty())
+        html += "<h2>Kinds of coating</h2>\n" +
+                html_table(fit_kind_table(report), {{"surface", "surface"},
+                                                    {"kind", "kind"},
+                                                    {"numbers", "fitted<br>numbers"},
+                                                    {"chi2_above", "χ² above<br>the lowest"},
+                                                    {"bic_above", "BIC above<br>the best"},
+                                                    {"share", "odds<br>%", 100.0}});
     if (!report.suggestions.empty()) {
         const Suggestion& best = report.suggestions.front();
         html += fmt::format(
@@ -231,10 +287,11 @@ std::string fit_page(const FitReport& report, const std::string& lens, const std
         report.ghosts_left_out, report.left_out_signal_to_noise);
     html += "<h2>Correlations</h2>\n" + correlation_table(report);
     html += fmt::format(
-        "<h2>Settings</h2>\n<pre>{}\n\n{} iterations, {} rays, {:.3g} s; cost {:.6g} at the start, "
+        "<h2>Settings</h2>\n<pre>{}\n\nloss {}, from {:.3g} standard deviations of a sample\n{} "
+        "iterations, {} rays, {:.3g} s; cost {:.6g} at the start, "
         "{:.6g} after\nprogram: ghostlight-cli " GHOSTLIGHT_VERSION "</pre>\n",
-        xml_text(command), report.iterations, report.rays, report.seconds, report.cost_before,
-        report.cost_after);
+        xml_text(command), name(report.loss), report.loss_scale, report.iterations, report.rays,
+        report.seconds, report.cost_before, report.cost_after);
     return html + "</body></html>\n";
 }
 

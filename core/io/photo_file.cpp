@@ -18,9 +18,14 @@
 namespace ghostlight {
 namespace {
 
-constexpr std::array raw_extensions = {".dng", ".cr2", ".cr3", ".crw", ".nef", ".nrw", ".arw",
-                                       ".raf", ".rw2", ".orf", ".pef", ".srw", ".rwl", ".3fr",
-                                       ".iiq", ".erf", ".mef", ".mos", ".x3f"};
+/// Of linear values taken back through the sRGB curve where the camera's own is not known: cameras
+/// differ from it by several times this in contrast, most of which exposure and balance take up;
+/// what is left is some percents between levels a factor of ten apart.
+constexpr double guessed_curve_error = 0.03;
+
+constexpr std::array<std::string_view, 19> raw_extensions = {
+    ".dng", ".cr2", ".cr3", ".crw", ".nef", ".nrw", ".arw", ".raf", ".rw2", ".orf",
+    ".pef", ".srw", ".rwl", ".3fr", ".iiq", ".erf", ".mef", ".mos", ".x3f"};
 /// What synth writes in front of its numbers, into a field that every format keeps.
 constexpr std::string_view noise_key = "ghostlight noise: shot ";
 /// 24 Mpx cameras and more are common; beyond this something is wrong with the file.
@@ -45,8 +50,15 @@ std::unique_ptr<OIIO::ImageInput> opened(const std::filesystem::path& file, bool
         config.attribute("raw:auto_bright", 0);
         config.attribute("raw:use_camera_wb", 0);
         config.attribute("raw:use_camera_matrix", 0);
+        // The camera's own balance: scaled channels would clip at levels of their own.
+        constexpr std::array unscaled = {1.0F, 1.0F, 1.0F, 1.0F};
+        config.attribute("raw:user_mul", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 4), unscaled.data());
+        // White stays the file's white level: by the picture's own it would differ between
+        // exposures.
+        config.attribute("raw:adjust_maximum_thr", 0.0F);
         config.attribute("raw:HighlightMode", 1);
-        config.attribute("raw:Exposure", 1.0F);
+        config.attribute("raw:balance_clamped", 0);  // of a balance that is none
+        config.attribute("raw:user_flip", 0);        // as the sensor has it
     }
     auto input = OIIO::ImageInput::open(file.string(), &config);
     if (!input) {
@@ -115,6 +127,8 @@ std::vector<float> read_rgb(OIIO::ImageInput& input, const OIIO::ImageSpec& spec
 
 }  // namespace
 
+std::span<const std::string_view> raw_photo_extensions() { return raw_extensions; }
+
 PhotoFormat photo_format(const std::filesystem::path& file) {
     const std::string extension = extension_of(file);
     if (extension == ".exr") return {.srgb = false, .bits = 0};
@@ -147,6 +161,7 @@ Photo read_photo(const std::filesystem::path& file) {
     const bool linear =
         raw || !integer || (known_noise && (extension == ".tif" || extension == ".tiff"));
     if (!linear) {
+        photo.curve_error = guessed_curve_error;
         std::ranges::transform(photo.rgb, photo.rgb.begin(),
                                [](float value) { return srgb_decoded(value); });
         photo.notes.push_back(
@@ -201,7 +216,10 @@ Photo read_photo(const std::filesystem::path& file) {
         if (!linear) photo.noise.read += 1.0 / (255.0 * 255.0 * 12.0) / (12.92 * 12.92);
     }
     const MaskCounts counts = mask_unusable(photo);
-    if (!known_noise) photo.noise = estimated_noise(photo);
+    if (!known_noise) {
+        photo.noise = estimated_noise(photo);
+        mask_hot(photo);
+    }
     if (counts.not_a_number > 0)
         photo.notes.push_back(
             {Note::Severity::warning,
@@ -227,12 +245,14 @@ void mask_by_file(Photo& photo, const std::filesystem::path& file) {
         upright_picture(read_rgb(*input, spec, file), spec.width, spec.height, 3);
     for (int y = 0; y < photo.height_px; ++y)
         for (int x = 0; x < photo.width_px; ++x) {
-            const int column = x * spec.width / photo.width_px;
-            const int row = y * spec.height / photo.height_px;
-            if (mask[3 * static_cast<std::size_t>(row * spec.width + column)] > 0.5F)
+            const int column = static_cast<int>(std::int64_t{x} * spec.width / photo.width_px);
+            const int row = static_cast<int>(std::int64_t{y} * spec.height / photo.height_px);
+            char& masked =
                 photo
                     .masked[static_cast<std::size_t>(y) * static_cast<std::size_t>(photo.width_px) +
-                            static_cast<std::size_t>(x)] = 1;
+                            static_cast<std::size_t>(x)];
+            if (!masked && mask[3 * static_cast<std::size_t>(row * spec.width + column)] > 0.5F)
+                masked = mask_reason::painted;
         }
 }
 

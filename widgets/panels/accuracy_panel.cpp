@@ -10,7 +10,6 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSpinBox>
-#include <QStackedWidget>
 #include <QSysInfo>
 #include <QTabWidget>
 #include <QTableWidget>
@@ -23,12 +22,10 @@
 #include "core/instruction_set.h"
 #include "core/io/lens_file.h"
 #include "core/parallel.h"
-#include "widgets/actions.h"
 #include "widgets/document.h"
 #include "widgets/log_chart_view.h"
 #include "widgets/number_text.h"
 #include "widgets/panel_header.h"
-#include "widgets/panels/empty_state.h"
 #include "widgets/panels/plan_page.h"
 #include "widgets/panels/table_delegate.h"
 
@@ -36,11 +33,16 @@ namespace ghostlight {
 
 namespace {
 
-constexpr const char* what_is_here =
-    "Error against time of every way to draw this lens's flare, measured against a reference, and "
-    "what the picture leaves out.";
-constexpr const char* before_measuring =
-    "Measures every method against a reference for the lens and light at hand.";
+QString what_is_here() {
+    return AccuracyPanel::tr(
+        "Error against time of every way to draw this lens's flare, measured against a reference, "
+        "and "
+        "what the picture leaves out.");
+}
+QString before_measuring() {
+    return AccuracyPanel::tr(
+        "Measures every method against a reference for the lens and light at hand.");
+}
 /// As `ghostlight-cli accuracy --quick` has them.
 constexpr int usual_width_px = 320, usual_repeats = 5;
 constexpr double usual_reference_percent = 2.0, usual_budget_s = 10.0;
@@ -70,11 +72,8 @@ void say_within(QTabWidget& tabs, QWidget* page, const QString& tip) {
 
 AccuracyPanel::AccuracyPanel(Document& document, const Actions& actions, MakeGlEngine make_gl,
                              QWidget* parent)
-    : QWidget(parent),
+    : PagedPanel(tr("Accuracy"), what_is_here(), actions, parent),
       document_(document),
-      header_(new PanelHeader("Accuracy")),
-      empty_(new EmptyState(what_is_here, "Open a lens…")),
-      pages_(new QStackedWidget),
       tabs_(new QTabWidget),
       error_chart_(new LogChartView),
       promise_chart_(new LogChartView),
@@ -82,8 +81,8 @@ AccuracyPanel::AccuracyPanel(Document& document, const Actions& actions, MakeGlE
       plan_(new PlanPage),
       job_(std::make_unique<AccuracyJob>(std::move(make_gl))) {
     setObjectName("accuracy_panel");
-    error_chart_->set_text(tr(before_measuring));
-    promise_chart_->set_text(tr(before_measuring));
+    error_chart_->set_text(before_measuring());
+    promise_chart_->set_text(before_measuring());
     table_->setObjectName("accuracy_table");
     table_->setHorizontalHeaderLabels({tr("Method"), tr("Setting"), tr("Median, ms"), tr("p95, ms"),
                                        tr("Error, %"), tr("Energy, %"), tr("SMAPE, %"),
@@ -118,15 +117,8 @@ AccuracyPanel::AccuracyPanel(Document& document, const Actions& actions, MakeGlE
     column->setSpacing(0);
     column->addWidget(make_controls());
     column->addWidget(tabs_, 1);
-    pages_->addWidget(empty_);
-    pages_->addWidget(content);
-    auto* all = new QVBoxLayout(this);
-    all->setContentsMargins(0, 0, 0, 0);
-    all->setSpacing(0);
-    all->addWidget(header_);
-    all->addWidget(pages_, 1);
+    set_content(content);
 
-    connect(empty_, &EmptyState::action_triggered, &actions["file.open"], &QAction::trigger);
     connect(&document_, &Document::changed, this, &AccuracyPanel::follow_document);
     connect(&document_, &Document::opened, this, [this] {
         cancel();
@@ -140,13 +132,13 @@ AccuracyPanel::AccuracyPanel(Document& document, const Actions& actions, MakeGlE
     connect(&plan_->measure(), &QPushButton::clicked, this, [this] { report_plan(true); });
     connect(job_.get(), &AccuracyJob::progressed, this, [this](double share, const QString& what) {
         progress_->setValue(static_cast<int>(1000.0 * share));
-        header_->set_state(tr("measuring %1").arg(what));
+        header().set_state(tr("measuring %1").arg(what));
     });
     connect(job_.get(), &AccuracyJob::measured, this,
             [this](const auto& result) { show_result(*result); });
     connect(job_.get(), &AccuracyJob::failed, this, [this](const QString& reason) {
         show_reason(reason);
-        header_->set_state(tr("failed"));
+        header().set_state(tr("failed"));
         show_buttons();
     });
     connect(job_.get(), &AccuracyJob::planned, plan_, &PlanPage::show_report);
@@ -233,7 +225,6 @@ QWidget* AccuracyPanel::make_controls() {
 QString AccuracyPanel::reason() const {
     return reason_label_->isHidden() ? QString() : reason_label_->text();
 }
-QString AccuracyPanel::state() const { return header_->state(); }
 
 void AccuracyPanel::show_reason(const QString& reason) {
     reason_label_->setText(reason);
@@ -290,7 +281,7 @@ void AccuracyPanel::measure() {
              .report = {}});
         show_reason({});
         progress_->setValue(0);
-        header_->set_state(tr("measuring"));
+        header().set_state(tr("measuring"));
         job_->measure(lens, request, with_gl_->isChecked());
     } catch (const Error& failure) {
         show_reason(QString::fromUtf8(failure.what()));
@@ -301,7 +292,7 @@ void AccuracyPanel::measure() {
 void AccuracyPanel::cancel() {
     if (job_->is_measuring()) {
         job_->cancel();
-        header_->set_state(tr("stopped"));
+        header().set_state(tr("stopped"));
         show_buttons();
     }
 }
@@ -323,7 +314,7 @@ void AccuracyPanel::show_rows() {
         table_->setRowCount(0);
         error_chart_->set_chart({});
         promise_chart_->set_chart({});
-        header_->set_state(QString());
+        header().set_state(QString());
         return;
     }
     const AccuracyCase& one = run_->cases.front();
@@ -352,7 +343,7 @@ void AccuracyPanel::show_rows() {
     }
     table_->resizeColumnsToContents();
     const Promises promises = promises_of(*run_);
-    header_->set_state(
+    header().set_state(
         tr("reference to %1 % in %2 s · the plan kept its tolerance in %3 of %4, %5 not resolved")
             .arg(percent(one.report.reference_error, 2),
                  significant(one.report.reference_ms / 1000.0, 2))
@@ -383,7 +374,7 @@ bool AccuracyPanel::save(const QString& folder) {
 }
 
 void AccuracyPanel::follow_document() {
-    pages_->setCurrentIndex(document_.is_empty() ? 0 : 1);
+    show_content(!document_.is_empty());
     proof_ = nullptr;
     if (reported_ != 0) {
         reported_ = 0;
@@ -391,7 +382,7 @@ void AccuracyPanel::follow_document() {
         plan_->show_nothing(tr("The picture is being drawn."));
     }
     if (run_ && !job_->is_measuring()) {
-        header_->set_state(tr("of another state of the lens or light; measure again"));
+        header().set_state(tr("of another state of the lens or light; measure again"));
     }
 }
 

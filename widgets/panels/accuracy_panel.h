@@ -1,13 +1,12 @@
 #pragma once
 
-#include <QWidget>
-
 #include <memory>
 #include <optional>
 
 #include "core/io/accuracy_page.h"
 #include "widgets/accuracy_job.h"
 #include "widgets/jobs.h"
+#include "widgets/panels/paged_panel.h"
 
 class QCheckBox;
 class QComboBox;
@@ -16,7 +15,6 @@ class QLabel;
 class QProgressBar;
 class QPushButton;
 class QSpinBox;
-class QStackedWidget;
 class QTableWidget;
 class QTabWidget;
 
@@ -24,14 +22,12 @@ namespace ghostlight {
 
 class Actions;
 class Document;
-class EmptyState;
 class LogChartView;
-class PanelHeader;
 class PlanPage;
 
 /// Error against time of every method and engine for the lens and light at hand, measured on
 /// request, and what the picture on screen leaves out.
-class AccuracyPanel : public QWidget {
+class AccuracyPanel : public PagedPanel {
     Q_OBJECT
    public:
     AccuracyPanel(Document& document, const Actions& actions,
@@ -63,7 +59,6 @@ class AccuracyPanel : public QWidget {
     bool is_measuring() const { return job_->is_measuring(); }
     bool is_reporting() const { return job_->is_reporting(); }
     QString reason() const;
-    QString state() const;
     const std::optional<AccuracyRun>& measured() const { return run_; }
 
    protected:
@@ -82,9 +77,6 @@ class AccuracyPanel : public QWidget {
     void report_plan(bool measure_error);
 
     Document& document_;
-    PanelHeader* header_;
-    EmptyState* empty_;
-    QStackedWidget* pages_;
     QTabWidget* tabs_;
     LogChartView *error_chart_, *promise_chart_;
     QTableWidget* table_;

@@ -2,7 +2,6 @@
 
 #include <QStringList>
 #include <QTimer>
-#include <QWidget>
 
 #include <memory>
 #include <optional>
@@ -12,29 +11,23 @@
 #include "widgets/fit_job.h"
 #include "widgets/models/fit_parameter_model.h"
 #include "widgets/panels/fit_picture_view.h"
+#include "widgets/panels/paged_panel.h"
 
 class QAbstractButton;
-class QCheckBox;
-class QComboBox;
-class QLabel;
 class QLineEdit;
-class QProgressBar;
-class QPushButton;
-class QStackedWidget;
 class QTableView;
-class QToolButton;
 
 namespace ghostlight {
 
-class Actions;
 class Document;
-class EmptyState;
+class FitControls;
+class FitPhotographs;
 class FitResults;
-class PanelHeader;
+class FitVariables;
 
 /// Fits the lens to photographs of its flare: photographs and the model on the left, what varies in
 /// the middle, what the fit says on the right. The set-up is the document's.
-class FitPanel : public QWidget {
+class FitPanel : public PagedPanel {
     Q_OBJECT
    public:
     FitPanel(Document& document, const Actions& actions, QWidget* parent = nullptr);
@@ -45,18 +38,20 @@ class FitPanel : public QWidget {
     /// Writes what "Save Report…" writes; false, with the reason shown, where it cannot.
     bool save_report(const QString& file);
 
-    FitParameterModel& model() { return *model_; }
-    QTableView& table() { return *table_; }
-    FitPictureView& picture() { return *picture_; }
+    FitPhotographs& photographs() { return *photographs_; }
+    FitVariables& variables() { return *variables_; }
     FitResults& results() { return *results_; }
-    /// "add", "remove", "all_coatings", "vary_marked", "vary_add", "vary_remove", "find", "start", "pause",
-    /// "cancel", "apply", "report", and "mode_photograph" … "mode_blink".
+    FitParameterModel& model();
+    QTableView& table();
+    FitPictureView& picture();
+    QLineEdit& light();
+    QLineEdit& spec();
+    /// "add", "remove", "all_coatings", "vary_marked", "vary_add", "vary_remove", "find", "mask",
+    /// "details", "ghosts_leave", "ghosts_only", "ghosts_all", "start", "pause", "cancel", "apply",
+    /// "report", "mode_photograph" … "mode_blink", and "tool_light" … "tool_crop".
     QAbstractButton& button(const QString& name) const;
-    QLineEdit& light() { return *light_; }
-    QLineEdit& spec() { return *spec_; }
     /// Why something was not taken, or the fit cannot be made; empty otherwise.
     QString reason() const;
-    QString state() const;
     const std::optional<FitReport>& report() const { return report_; }
     /// Photographs are read, and no fit runs or is about to.
     bool is_settled() const {
@@ -67,22 +62,13 @@ class FitPanel : public QWidget {
     bool is_running() const { return job_->is_running(); }
 
    private:
-    QWidget* make_photographs();
-    QWidget* make_parameters();
-    QWidget* make_controls();
-    QToolButton* quiet(const QString& name, const QString& text, const QString& tip,
-                       bool checkable = false);
-
+    void connect_parts();
+    void connect_job();
     void follow_document();
     void load();
     void edit_setup(const FitSetup& setup, const QString& step);
-    void set_parameters(const std::vector<FitParameterModel::Row>& rows, const QString& step);
-    void add_spec(const QString& text, const QString& step);
-    void set_light_of_shown(const QString& text);
-    void show_photograph();
-    void show_fitted(const FittedPhoto& photo);
     void show_reason(const QString& reason);
-    void show_buttons();
+    void show_state();
     void take_photos(const LoadedPhotos& photos);
     void take_glance(const FitGlance& glance);
     void take_report(const FitReport& report);
@@ -90,26 +76,12 @@ class FitPanel : public QWidget {
     void cancel();
     void apply();
     void drop_result();
-    std::size_t shown_photo() const;
 
     Document& document_;
-    PanelHeader* header_;
-    EmptyState* empty_;
-    QStackedWidget* pages_;
-    FitPictureView* picture_;
-    QComboBox* photos_;
-    QLineEdit* light_;
-    QLabel* about_;
-    QTableView* table_;
-    FitParameterModel* model_;
-    QLineEdit* spec_;
-    QLineEdit* spectrum_;
-    QCheckBox* merge_;
-    QCheckBox* suggest_;
+    FitPhotographs* photographs_;
+    FitVariables* variables_;
     FitResults* results_;
-    QLabel* reason_label_;
-    QProgressBar* progress_;
-    QPushButton *start_, *pause_, *cancel_, *apply_, *save_;
+    FitControls* controls_;
     QTimer delay_;  ///< many changes, one reading
 
     FitSetup setup_;
@@ -119,9 +91,10 @@ class FitPanel : public QWidget {
     FitSetup fitted_setup_;
     std::optional<FitReport> report_;
     std::shared_ptr<const FitLook> kept_;  ///< best iteration of a fit that was stopped
-    std::optional<FittedPhoto> shown_;     ///< pictures of the fit, of the photograph shown
-    std::vector<FittedPhoto> fitted_photos_;
     double share_ = 0.0;
+    bool is_paused_ = false;  ///< it waits, and is not merely asked to
+    bool was_stopped_ = false, has_failed_ = false;
+    QString stage_;
     bool wants_start_ = false;
     std::unique_ptr<FitJob> job_;
 };

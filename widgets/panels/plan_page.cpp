@@ -6,6 +6,7 @@
 #include <QTableWidget>
 #include <QVBoxLayout>
 
+#include <algorithm>
 #include <utility>
 
 #include "widgets/number_text.h"
@@ -24,9 +25,11 @@ QString bound_text(const PlanReport& plan, const Omission& each) {
         return QStringLiteral("–");
     }
     if (*each.bound_mm2 == 0.0) {
-        return QStringLiteral("nothing");
+        return PlanPage::tr("nothing");
     }
-    return plan.flux_mm2 > 0.0 ? percent(*each.bound_mm2 / plan.flux_mm2) : QString();
+    return plan.flux_mm2 > 0.0 ? (each.proven ? QStringLiteral("≤ ") : QStringLiteral("≈ ")) +
+                                     percent(*each.bound_mm2 / plan.flux_mm2)
+                               : QString();
 }
 
 }  // namespace
@@ -38,9 +41,10 @@ PlanPage::PlanPage(QWidget* parent)
       measure_(new QPushButton(tr("Measure the true error"))) {
     table_->setObjectName("plan_table");
     table_->setHorizontalHeaderLabels(
-        {tr("Not computed"), tr("Ghosts"), tr("At most"), tr("Known"), tr("Why")});
+        {tr("Not computed"), tr("Ghosts"), tr("Changes"), tr("Known"), tr("Why")});
     table_->horizontalHeaderItem(bound)->setToolTip(
-        tr("What it can change of the picture: L1 over the light on the sensor"));
+        tr("What it can change of the picture: L1 over the light on the sensor. ≤ at most, by a "
+           "proof; ≈ by the plan's own estimate, good to a factor of two"));
     table_->setItemDelegate(new TableDelegate(-1, -1, this));
     for (const int number : {ghosts, bound}) {
         table_->horizontalHeaderItem(number)->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
@@ -119,7 +123,26 @@ void PlanPage::show_error(const MeasuredPlan& error) {
 }
 
 void PlanPage::show_sum() {
-    QString text = tr("All of these: at most %1.").arg(percent(report_->bound()));
+    const auto share = [&](double mm2) {
+        return percent(report_->flux_mm2 > 0.0 ? mm2 / report_->flux_mm2 : 0.0);
+    };
+    const double proven_mm2 = report_->proven_mm2;
+    const double estimated_mm2 = report_->bound_mm2 - proven_mm2;
+    QString text;
+    if (!(estimated_mm2 > 0.0)) {
+        text = tr("All of these: at most %1.").arg(share(proven_mm2));
+    } else if (proven_mm2 > 0.0) {
+        text = tr("All of these: at most %1 proven, and about %2 estimated (good to a factor of "
+                  "two).")
+                   .arg(share(proven_mm2), share(estimated_mm2));
+    } else {
+        text = tr("All of these: about %1, estimated (good to a factor of two).")
+                   .arg(share(estimated_mm2));
+    }
+    if (std::ranges::any_of(report_->omissions,
+                            [](const Omission& each) { return !each.bound_mm2; })) {
+        text += tr(" Rows with – are not in it.");
+    }
     if (error_) {
         text += tr(" The true error is %1, by a reference whose two samplings differ by %2.")
                     .arg(percent(error_->error), percent(error_->reference_error));

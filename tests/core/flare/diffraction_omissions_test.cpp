@@ -22,7 +22,7 @@ TEST(DiffractionOmissions, AShadowTakesWhatAStraightEdgeGives) {
         const auto f = fresnel_integrals(w);
         shadow += step * 0.5 * (std::pow(0.5 - f.c, 2) + std::pow(0.5 - f.s, 2));
     }
-    GhostMoments disc;  // of radius 2, whose rim is 1 of its area
+    GhostSpot disc;  // of radius 2, whose rim is 1 of its area
     disc.xx_mm2 = disc.yy_mm2 = 1.0;
     constexpr double width_mm = 0.01;
     // In the shadow, and missing from the lit side.
