@@ -34,6 +34,12 @@ endif()
 
 if(GHOSTLIGHT_BUILD_GUI)
     find_package(Qt6 6.4 REQUIRED COMPONENTS Widgets OpenGL OpenGLWidgets Svg)
+    # Makes the catalogues of translated texts; Debian keeps it beside Qt's other tools.
+    find_program(
+        GHOSTLIGHT_LRELEASE NAMES lrelease lrelease-qt6 lrelease6
+        HINTS ${QT6_INSTALL_PREFIX}/${QT6_INSTALL_BINS} /usr/lib/qt6/bin
+        NO_DEFAULT_PATH REQUIRED
+    )
     # Debian's VTK refers to MPI::MPI_C without looking for it.
     find_package(MPI REQUIRED COMPONENTS C)
     find_package(

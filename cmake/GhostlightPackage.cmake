@@ -32,9 +32,9 @@ set(CPACK_PACKAGE_DIRECTORY ${PROJECT_SOURCE_DIR}/out)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 # The libraries by what the programs link; the rest is loaded by name at run time: the
-# reader of SVG pictures, a software OpenGL for machines without a card, and the typeface that the
-# window is drawn for.
+# reader of SVG pictures, a software OpenGL for machines without a card, the typeface that the
+# window is drawn for, and the texts of Qt's own dialogs in other languages.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libqt6svg6")
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libgl1-mesa-dri, fonts-inter")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libgl1-mesa-dri, fonts-inter, qt6-translations-l10n")
 include(CPack)

@@ -119,7 +119,7 @@ void AccuracyJob::work_on_plan(const PlanTask& task, const std::stop_token& stop
     try {
         const FlareScene scene = flare_scene(task.lens, task.request.spectrum);
         const auto report = std::make_shared<const PlanReport>(
-            plan_report(scene, task.image->plan, task.proof.get()));
+            plan_report(scene, task.request, task.image->plan, task.proof.get()));
         say([this, report, is_last = !task.measure_error] {
             reporting_ = reporting_ && !is_last;
             Q_EMIT planned(report);

@@ -1,5 +1,7 @@
 #include "widgets/coating_edits.h"
 
+#include <QCoreApplication>
+
 #include <QStringList>
 
 #include <cmath>
@@ -13,8 +15,13 @@
 namespace ghostlight {
 
 namespace {
+
+/// Texts for people, as translators know them.
+struct CoatingEdits {
+    Q_DECLARE_TR_FUNCTIONS(CoatingEdits)
+};
 constexpr double design_nm = 550.0;
-}
+}  // namespace
 
 CoatingKind kind_of(const Coating& coating) {
     if (const auto* quarter = std::get_if<QuarterWave>(&coating)) {
@@ -49,7 +56,9 @@ Coating as_kind(const Coating& coating, CoatingKind kind, const Medium& before,
         case CoatingKind::measured:
             break;
     }
-    throw Error("a measured table comes from a file: docs/formats-catalogues.md says how");
+    throw Error(
+        CoatingEdits::tr("a measured table comes from a file: docs/formats-catalogues.md says how")
+            .toStdString());
 }
 
 LayerStack as_stack(const Coating& coating, const Medium& before, const Medium& after) {
@@ -80,7 +89,8 @@ Medium read_layer_medium(const QString& text) {
 }
 
 std::vector<std::size_t> read_surfaces(const QString& text, std::size_t count) {
-    const std::string expected = "surfaces as 2-5, 8, from 1 to " + std::to_string(count);
+    const std::string expected =
+        CoatingEdits::tr("surfaces as 2-5, 8, from 1 to %1").arg(count).toStdString();
     std::set<std::size_t> rows;
     for (const QString& part : text.split(QChar(','), Qt::SkipEmptyParts)) {
         const QStringList ends = part.trimmed().split('-');
@@ -89,20 +99,31 @@ std::vector<std::size_t> read_surfaces(const QString& text, std::size_t count) {
             bool is_number = false;
             const auto number = end.trimmed().toULongLong(&is_number);
             if (!is_number || number < 1 || number > count) {
-                throw Error({"not a surface", {}, {}, part.trimmed().toStdString(), expected});
+                throw Error({CoatingEdits::tr("not a surface").toStdString(),
+                             {},
+                             {},
+                             part.trimmed().toStdString(),
+                             expected});
             }
             numbers.push_back(static_cast<std::size_t>(number));
         }
         if (numbers.size() > 2 || numbers.front() > numbers.back()) {
-            throw Error(
-                {"not a range of surfaces", {}, {}, part.trimmed().toStdString(), expected});
+            throw Error({CoatingEdits::tr("not a range of surfaces").toStdString(),
+                         {},
+                         {},
+                         part.trimmed().toStdString(),
+                         expected});
         }
         for (std::size_t number = numbers.front(); number <= numbers.back(); ++number) {
             rows.insert(number - 1);
         }
     }
     if (rows.empty()) {
-        throw Error({"no surface is named", {}, {}, text.toStdString(), expected});
+        throw Error({CoatingEdits::tr("no surface is named").toStdString(),
+                     {},
+                     {},
+                     text.toStdString(),
+                     expected});
     }
     return {rows.begin(), rows.end()};
 }

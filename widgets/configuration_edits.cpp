@@ -1,5 +1,7 @@
 #include "widgets/configuration_edits.h"
 
+#include <QCoreApplication>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +13,11 @@
 namespace ghostlight {
 
 namespace {
+
+/// Texts for people, as translators know them.
+struct ConfigurationEdits {
+    Q_DECLARE_TR_FUNCTIONS(ConfigurationEdits)
+};
 
 constexpr std::string_view as_listed = "as listed";
 
@@ -57,13 +64,17 @@ DocumentState with_configuration_renamed(DocumentState state, std::string_view f
                                          std::string_view to) {
     const auto known = find(state.lens, from);
     if (known == state.lens.configurations.end()) {
-        throw Error("the lens as listed keeps its name");
+        throw Error(ConfigurationEdits::tr("the lens as listed keeps its name").toStdString());
     }
     if (to.empty()) {
-        throw Error("a configuration needs a name");
+        throw Error(ConfigurationEdits::tr("a configuration needs a name").toStdString());
     }
     if (to != from && (has(state.lens, to) || to == as_listed)) {
-        throw Error({"the name is taken", {}, {}, std::string(to), "another name"});
+        throw Error({ConfigurationEdits::tr("the name is taken").toStdString(),
+                     {},
+                     {},
+                     std::string(to),
+                     ConfigurationEdits::tr("another name").toStdString()});
     }
     known->name = to;
     if (state.scene.configuration == from) {
@@ -75,7 +86,8 @@ DocumentState with_configuration_renamed(DocumentState state, std::string_view f
 DocumentState with_configuration_removed(DocumentState state, std::string_view name) {
     const auto known = find(state.lens, name);
     if (known == state.lens.configurations.end()) {
-        throw Error("choose a configuration: the lens as listed stays");
+        throw Error(ConfigurationEdits::tr("choose a configuration: the lens as listed stays")
+                        .toStdString());
     }
     if (state.scene.configuration == name) {
         state.scene.configuration =

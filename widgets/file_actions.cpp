@@ -30,7 +30,6 @@ namespace ghostlight {
 namespace {
 
 constexpr const char* topic = "file";
-constexpr const char* own_filter = "Ghostlight lens (*.json)";
 
 QString text_of(const std::filesystem::path& file) { return QString::fromStdString(file.string()); }
 
@@ -46,8 +45,8 @@ FileActions::FileActions(Document& document, const Actions& actions, Banner& ban
       window_(window) {
     ask_about_unsaved = [this] {
         const auto button = QMessageBox::question(
-            window_, "Unsaved edits",
-            QStringLiteral("%1 has edits that are not saved.").arg(document_.title()),
+            window_, tr("Unsaved edits"),
+            tr("%1 has edits that are not saved.").arg(document_.title()),
             QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
         return button == QMessageBox::Save      ? Answer::save
                : button == QMessageBox::Discard ? Answer::discard
@@ -73,7 +72,7 @@ FileActions::FileActions(Document& document, const Actions& actions, Banner& ban
     on("file.save_as", [this] { choose_and_save(); });
     on("file.export_lens", [this] {
         const bool ends_in_zmx = document_.file().extension() == ".zmx";
-        choose_and(&FileActions::export_lens, "Export lens",
+        choose_and(&FileActions::export_lens, tr("Export lens"),
                    !document_.is_own_file() && ends_in_zmx ? "_exported.zmx" : ".zmx",
                    lens_export_filter());
     });
@@ -83,25 +82,27 @@ FileActions::FileActions(Document& document, const Actions& actions, Banner& ban
             return;
         }
         if (ghosts.empty()) {
-            banner_.show_text(topic, "Choose a ghost in the table first: it is the one to export.");
+            banner_.show_text(topic,
+                              tr("Choose a ghost in the table first: it is the one to export."));
             return;
         }
         const auto count = document_.lens().surfaces.size();
         choose_and(
-            &FileActions::export_ghost, "Export unfolded ghost",
+            &FileActions::export_ghost, tr("Export unfolded ghost"),
             QStringLiteral("_ghost_%1.zmx").arg(QString::fromStdString(name(ghosts[0], count))),
-            "Zemax (*.zmx)");
+            tr("Zemax (*.zmx)"));
     });
     on("file.glass_folders", [this] { choose_glass_folders(); });
     on("file.export_table", [this] {
-        choose_and(&FileActions::export_table, "Export ghost table", "_ghosts.csv",
-                   "Comma-separated values (*.csv)");
+        choose_and(&FileActions::export_table, tr("Export ghost table"), "_ghosts.csv",
+                   tr("Comma-separated values (*.csv)"));
     });
     on("file.export_exr", [this] {
-        choose_and(&FileActions::export_exr, "Export flare", "_flare.exr", "OpenEXR (*.exr)");
+        choose_and(&FileActions::export_exr, tr("Export flare"), "_flare.exr",
+                   tr("OpenEXR (*.exr)"));
     });
     on("file.export_png", [this] {
-        choose_and(&FileActions::export_png, "Export flare", "_flare.png", "PNG (*.png)");
+        choose_and(&FileActions::export_png, tr("Export flare"), "_flare.png", "PNG (*.png)");
     });
 }
 
@@ -153,22 +154,25 @@ bool FileActions::save() {
 }
 
 bool FileActions::save_as(const std::filesystem::path& file) {
-    return attempt(QStringLiteral("Saved %1").arg(text_of(file.filename())), [&] {
+    return attempt(tr("Saved %1").arg(text_of(file.filename())), [&] {
         const bool is_in_hand = document_.is_own_file() && file == document_.file();
         if (!is_in_hand && !has_own_extension(file)) {
-            throw Error({.problem = "lenses are saved in Ghostlight's own format; File ▸ Export "
-                                    "Lens writes others",
+            throw Error({.problem = tr("lenses are saved in Ghostlight's own format; File ▸ Export "
+                                       "Lens writes others")
+                                        .toStdString(),
                          .file = file.string(),
                          .where = {},
                          .found = file.extension().string(),
-                         .expected = "a name that ends in .json"});
+                         .expected = tr("a name that ends in .json").toStdString()});
         }
         if (!may_be_saved_over(file)) {
-            throw Error({.problem = "the file is another program's, and is not written over",
-                         .file = file.string(),
-                         .where = {},
-                         .found = {},
-                         .expected = "another name"});
+            throw Error(
+                {.problem =
+                     tr("the file is another program's, and is not written over").toStdString(),
+                 .file = file.string(),
+                 .where = {},
+                 .found = {},
+                 .expected = tr("another name").toStdString()});
         }
         if (const auto error = document_.save_as(file)) {
             throw *error;
@@ -190,7 +194,8 @@ bool FileActions::choose_and_save() {
                     : has_own_extension(present) ? text_of(present.stem()) + "_ghostlight.json"
                                                  : text_of(present.stem()) + ".json";
     }
-    const QString file = ask_file_to_write("Save lens", suggested, own_filter);
+    const QString file =
+        ask_file_to_write(tr("Save lens"), suggested, tr("Ghostlight lens (*.json)"));
     if (file.isEmpty()) {
         return false;
     }
@@ -199,8 +204,8 @@ bool FileActions::choose_and_save() {
 }
 
 void FileActions::choose_and_open() {
-    const QString file =
-        QFileDialog::getOpenFileName(window_, "Open lens", settings::folder(), lens_open_filter());
+    const QString file = QFileDialog::getOpenFileName(window_, tr("Open lens"), settings::folder(),
+                                                      lens_open_filter());
     if (!file.isEmpty()) {
         settings::set_folder(QFileInfo(file).absolutePath());
         open(file.toStdString());
@@ -236,20 +241,21 @@ void FileActions::choose_and(bool (FileActions::*write)(const std::filesystem::p
 }
 
 bool FileActions::export_table(const std::filesystem::path& file) {
-    return attempt(QStringLiteral("Wrote %1").arg(text_of(file.filename())), [&] {
+    return attempt(tr("Wrote %1").arg(text_of(file.filename())), [&] {
         const auto table = shown_.table();
         if (!table) {
-            throw Error("there is no ghost table yet: it is still being computed");
+            throw Error(
+                tr("there is no ghost table yet: it is still being computed").toStdString());
         }
         write_file_safely(file, ghost_table_csv(*table, GhostColumns::all));
     });
 }
 
 bool FileActions::export_exr(const std::filesystem::path& file) {
-    return attempt(QStringLiteral("Wrote %1").arg(text_of(file.filename())), [&] {
+    return attempt(tr("Wrote %1").arg(text_of(file.filename())), [&] {
         const auto image = shown_.image();
         if (!image) {
-            throw Error("there is no flare yet: it is still being computed");
+            throw Error(tr("there is no flare yet: it is still being computed").toStdString());
         }
         // A layer alone is the picture.
         std::vector<FlareImage> images;
@@ -269,17 +275,17 @@ bool FileActions::export_exr(const std::filesystem::path& file) {
 }
 
 bool FileActions::export_png(const std::filesystem::path& file) {
-    return attempt(QStringLiteral("Wrote %1").arg(text_of(file.filename())), [&] {
+    return attempt(tr("Wrote %1").arg(text_of(file.filename())), [&] {
         const auto image = shown_.image();
         if (!image) {
-            throw Error("there is no flare yet: it is still being computed");
+            throw Error(tr("there is no flare yet: it is still being computed").toStdString());
         }
         write_display(*image, shown_.exposure_ev(), file);
     });
 }
 
 bool FileActions::export_lens(const std::filesystem::path& file) {
-    return attempt(QStringLiteral("Wrote %1").arg(text_of(file.filename())), [&] {
+    return attempt(tr("Wrote %1").arg(text_of(file.filename())), [&] {
         Notes notes;
         write_file_safely(file, writable_format(file).write(document_.lens(), notes));
         Q_EMIT exported(text_of(file.filename()), notes);
@@ -287,10 +293,10 @@ bool FileActions::export_lens(const std::filesystem::path& file) {
 }
 
 bool FileActions::export_ghost(const std::filesystem::path& file) {
-    return attempt(QStringLiteral("Wrote %1").arg(text_of(file.filename())), [&] {
+    return attempt(tr("Wrote %1").arg(text_of(file.filename())), [&] {
         const auto ghosts = shown_.ghosts();
         if (ghosts.empty()) {
-            throw Error("no ghost is chosen");
+            throw Error(tr("no ghost is chosen").toStdString());
         }
         Notes notes;
         const Prescription lens = document_.configured_lens();
@@ -307,7 +313,7 @@ void FileActions::choose_glass_folders() {
     }
     settings::set_glass_folders(*folders);
     use_glass_folders();
-    document_.edit_lens(with_known_glasses(document_.lens()), "look up unknown glasses");
+    document_.edit_lens(with_known_glasses(document_.lens()), tr("look up unknown glasses"));
 }
 
 void FileActions::fill_bundled(QMenu& menu) {
@@ -330,7 +336,7 @@ void FileActions::fill_recent(QMenu& menu) {
         action->setToolTip(file);
     }
     if (menu.isEmpty()) {
-        menu.addAction("No lens opened yet")->setEnabled(false);
+        menu.addAction(tr("No lens opened yet"))->setEnabled(false);
     }
     menu.setToolTipsVisible(true);
 }

@@ -1,5 +1,7 @@
 #include "widgets/flare_overlay.h"
 
+#include <QCoreApplication>
+
 #include <QFont>
 #include <QFontMetricsF>
 #include <QObject>
@@ -18,7 +20,13 @@ namespace ghostlight {
 
 namespace {
 
+/// Texts for people, as translators know them.
+struct FlareOverlay {
+    Q_DECLARE_TR_FUNCTIONS(FlareOverlay)
+};
+
 constexpr double ring_radius_px = 7.0;
+constexpr double other_radius_px = 5.0, other_opacity = 0.75;  // of lights that are not chosen
 constexpr double border_px = 14.0;  // of the arrow's tip from the view's edge
 constexpr double arrow_length_px = 12.0, arrow_half_width_px = 6.0;
 constexpr double readout_offset_px = 16.0, readout_padding_px = 8.0;
@@ -28,12 +36,16 @@ constexpr double under_px = 4.0;  // a dark line under the amber one keeps it vi
 /// Over a picture that is dark in either theme.
 QColor light_color() { return dark_palette().amber; }
 
-void paint_ring(QPainter& painter, QPointF at) {
+void paint_ring(QPainter& painter, QPointF at, double radius_px, double line_px) {
     painter.setBrush(Qt::NoBrush);
-    painter.setPen(QPen(QColor(0, 0, 0, 150), under_px));
-    painter.drawEllipse(at, ring_radius_px, ring_radius_px);
-    painter.setPen(QPen(light_color(), 1.75));
-    painter.drawEllipse(at, ring_radius_px, ring_radius_px);
+    painter.setPen(QPen(QColor(0, 0, 0, 150), line_px + under_px - 1.75));
+    painter.drawEllipse(at, radius_px, radius_px);
+    painter.setPen(QPen(light_color(), line_px));
+    painter.drawEllipse(at, radius_px, radius_px);
+}
+
+bool is_within(QSizeF view_px, const glm::dvec2& at) {
+    return at.x >= 0.0 && at.y >= 0.0 && at.x < view_px.width() && at.y < view_px.height();
 }
 
 void paint_arrow(QPainter& painter, QPointF center, QPointF light, QSizeF view_px,
@@ -81,10 +93,8 @@ void paint_light(QPainter& painter, const PictureFrame& frame, QSizeF view_px,
     if (!std::isfinite(at.x) || !std::isfinite(at.y)) {
         return;
     }
-    const bool inside =
-        at.x >= 0.0 && at.y >= 0.0 && at.x < view_px.width() && at.y < view_px.height();
-    if (inside) {
-        paint_ring(painter, {at.x, at.y});
+    if (is_within(view_px, at)) {
+        paint_ring(painter, {at.x, at.y}, ring_radius_px, 1.75);
         return;
     }
     const glm::dvec2 center = frame.view_from_sensor({0.0, 0.0});
@@ -92,6 +102,19 @@ void paint_light(QPainter& painter, const PictureFrame& frame, QSizeF view_px,
                        std::clamp(center.y, border_px, view_px.height() - border_px));
     paint_arrow(painter, from, {at.x, at.y}, view_px,
                 QString::number(light.field_deg, 'f', 1) + QChar(0xb0));
+}
+
+void paint_other_lights(QPainter& painter, const PictureFrame& frame, QSizeF view_px,
+                        const std::vector<LightDirection>& lights, double efl_mm) {
+    painter.save();
+    painter.setOpacity(other_opacity);
+    for (const LightDirection& light : lights) {
+        const glm::dvec2 at = frame.view_from_sensor(light_on_sensor_mm(light, efl_mm));
+        if (is_within(view_px, at)) {
+            paint_ring(painter, {at.x, at.y}, other_radius_px, 1.0);
+        }
+    }
+    painter.restore();
 }
 
 std::optional<float> irradiance_at(const FlareImage& image, double x_mm, double y_mm) {
@@ -123,10 +146,10 @@ void paint_readout(QPainter& painter, const PictureFrame& frame, QSizeF view_px,
     }
     const Palette& colors = current_palette();
     const QString position = position_text(point.x, point.y);
-    const QString amount =
-        *irradiance > 0.0F
-            ? QObject::tr("irradiance %1 E₀").arg(significant(static_cast<double>(*irradiance), 2))
-            : QObject::tr("no ghost here");
+    const QString amount = *irradiance > 0.0F
+                               ? FlareOverlay::tr("irradiance %1 E₀")
+                                     .arg(significant(static_cast<double>(*irradiance), 2))
+                               : FlareOverlay::tr("no ghost here");
     QFont bold = painter.font();
     bold.setWeight(QFont::DemiBold);
     const QFontMetricsF bold_metrics(bold), metrics(painter.font());
@@ -197,7 +220,7 @@ void paint_false_color_scale(QPainter& painter, QSizeF view_px,
     }
     painter.setPen(dark_palette().text);
     painter.drawText(QRectF(bar.left() - 8.0, bar.top() - 24.0, 60.0, 16.0), Qt::AlignLeft,
-                     QObject::tr("E / E₀"));
+                     FlareOverlay::tr("E / E₀"));
     const int low = static_cast<int>(std::lround(decades.low));
     const int high = static_cast<int>(std::lround(decades.high));
     for (int decade = low; decade <= high; ++decade) {

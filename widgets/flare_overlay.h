@@ -20,6 +20,9 @@ namespace ghostlight {
 /// A small ring where the light's image is, or an arrow at the border towards it.
 void paint_light(QPainter& painter, const PictureFrame& frame, QSizeF view_px,
                  const LightDirection& light, double efl_mm);
+/// Smaller, thinner rings where the images of the scene's other lights are, within the view.
+void paint_other_lights(QPainter& painter, const PictureFrame& frame, QSizeF view_px,
+                        const std::vector<LightDirection>& lights, double efl_mm);
 
 /// A line of the readout: "5-3" and "62 %", with the ghost's swatch.
 struct ReadoutLine {

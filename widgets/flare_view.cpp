@@ -145,6 +145,12 @@ void FlareView::set_light(const LightDirection& light, double efl_mm) {
     refresh();
 }
 
+void FlareView::set_other_lights(std::vector<LightDirection> lights) {
+    if (lights == other_lights_) return;
+    other_lights_ = std::move(lights);
+    refresh();
+}
+
 void FlareView::set_failed() {
     waiting_for_ = Waiting::mending;
     refresh();
@@ -252,6 +258,7 @@ void FlareView::paint_overlay(QPainter& painter) {
                 : tr("The flare appears here.\nOpen a lens file, or drop one on the window."));
         return;
     }
+    paint_other_lights(painter, frame(), size(), other_lights_, efl_mm_);
     paint_light(painter, frame(), size(), light_, efl_mm_);
     if (look_.false_color) {
         paint_false_color_scale(painter, size(), *look_.false_color);

@@ -31,6 +31,8 @@ class FlareView : public GlView {
     void set_image(std::shared_ptr<const FlareImage> image);
     const FlareImage* image() const { return image_.get(); }
     void set_light(const LightDirection& light, double efl_mm);
+    /// Marked less strongly.
+    void set_other_lights(std::vector<LightDirection> lights);
     /// The lens cannot be traced as it stands: says so where there is no picture.
     void set_failed();
     void set_exposure_ev(double exposure_ev);
@@ -101,6 +103,7 @@ class FlareView : public GlView {
     enum class Waiting { lens, picture, mending };
     Waiting waiting_for_ = Waiting::lens;  ///< while there is no picture
     LightDirection light_;
+    std::vector<LightDirection> other_lights_;
     double efl_mm_ = 50.0;
     PictureLook look_;
     std::shared_ptr<const FlareImage> compared_;

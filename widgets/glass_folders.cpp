@@ -40,9 +40,10 @@ QString what_is_in(const QStringList& folders) {
             glasses += library.catalogs[k].glasses.size();
         }
         QStringList lines = {
-            QStringLiteral("%1 %2 with %3 glasses in these folders; %4 more are bundled.")
-                .arg(found)
-                .arg(found == 1 ? "catalogue" : "catalogues", grouped(glasses))
+            GlassFoldersDialog::tr(
+                "%n catalogue(s) with %1 glasses in these folders; %2 more are bundled.", nullptr,
+                static_cast<int>(found))
+                .arg(grouped(glasses))
                 .arg(bundled)};
         constexpr std::size_t most = 4;
         for (std::size_t k = 0; k < library.notes.size() && k < most; ++k) {
@@ -51,7 +52,7 @@ QString what_is_in(const QStringList& folders) {
                                                                : note.where + ": " + note.text);
         }
         if (library.notes.size() > most) {
-            lines << QStringLiteral("… and %1 more").arg(library.notes.size() - most);
+            lines << GlassFoldersDialog::tr("… and %1 more").arg(library.notes.size() - most);
         }
         return lines.join('\n');
     } catch (const Error& error) {
@@ -65,17 +66,17 @@ void use_glass_folders() { set_glass_folders(paths(settings::glass_folders())); 
 
 GlassFoldersDialog::GlassFoldersDialog(QStringList folders, QWidget* parent)
     : QDialog(parent), list_(new QListWidget), summary_(new QLabel), remove_(nullptr) {
-    setWindowTitle("Glass folders");
+    setWindowTitle(tr("Glass folders"));
     auto* what = new QLabel(
-        "Glasses are looked up in these folders first, in this order: AGF catalogues, and files "
-        "of refractiveindex.info. The bundled catalogues follow.");
+        tr("Glasses are looked up in these folders first, in this order: AGF catalogues, and files "
+           "of refractiveindex.info. The bundled catalogues follow."));
     what->setWordWrap(true);
     list_->addItems(folders);
     summary_->setWordWrap(true);
     summary_->setForegroundRole(QPalette::PlaceholderText);
     summary_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    auto* add = new QPushButton("Add folder…");
-    remove_ = new QPushButton("Remove");
+    auto* add = new QPushButton(tr("Add folder…"));
+    remove_ = new QPushButton(tr("Remove"));
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel);
     for (QAbstractButton* button : buttons->buttons()) {
         button->setIcon({});  // the words say it
@@ -121,7 +122,7 @@ void GlassFoldersDialog::add_folder(const QString& folder) {
 QString GlassFoldersDialog::summary() const { return summary_->text(); }
 
 void GlassFoldersDialog::choose_folder() {
-    add_folder(QFileDialog::getExistingDirectory(this, "Folder with glass catalogues",
+    add_folder(QFileDialog::getExistingDirectory(this, tr("Folder with glass catalogues"),
                                                  settings::folder()));
 }
 

@@ -1,5 +1,7 @@
 #include "widgets/help_pages.h"
 
+#include <QCoreApplication>
+
 #include <vtkVersion.h>
 
 #include <QApplication>
@@ -23,6 +25,11 @@
 namespace ghostlight {
 
 namespace {
+
+/// Texts for people, as translators know them.
+struct HelpPages {
+    Q_DECLARE_TR_FUNCTIONS(HelpPages)
+};
 
 QString stem(QString words) {
     words = words.toCaseFolded().replace('-', ' ').remove(QRegularExpression("^(the|a) "));
@@ -63,6 +70,8 @@ QStringList headings(const QString& markdown) {
     return found;
 }
 
+QString guide_title(QString panel_name) { return panel_name.replace('_', ' '); }
+
 QString heading_about(const QString& title, const QStringList& headings) {
     const QString wanted = stem(title);
     QString holds;
@@ -79,7 +88,7 @@ QString heading_about(const QString& title, const QStringList& headings) {
 }
 
 QString shortcuts_page(QWidget& window) {
-    QString page = QStringLiteral("<h1>%1</h1><table>").arg(QApplication::tr("Keyboard shortcuts"));
+    QString page = QStringLiteral("<h1>%1</h1><table>").arg(HelpPages::tr("Keyboard shortcuts"));
     auto* main_window = qobject_cast<QMainWindow*>(&window);
     QString menu;
     for (const Command& command :
@@ -97,14 +106,14 @@ QString shortcuts_page(QWidget& window) {
                                             QStringLiteral(" – ") + command.plain_tip());
     }
     page += QStringLiteral("<tr><td colspan='2'><h3>%1</h3></td></tr>")
-                .arg(QApplication::tr("In a panel"));
+                .arg(HelpPages::tr("In a panel"));
     const std::pair<QString, QString> in_panels[] = {
-        {QApplication::tr("F2, or typing"), QApplication::tr("edit the cell")},
-        {"Tab, Shift+Tab", QApplication::tr("next, previous field")},
-        {QApplication::tr("Up, Down"), QApplication::tr("a step more, a step less in a number")},
-        {"F", QApplication::tr("the whole lens, the whole picture")},
-        {"Ctrl+C", QApplication::tr("copy the chosen rows with every digit")},
-        {"Alt", QApplication::tr("the menus, by their underlined letters")}};
+        {HelpPages::tr("F2, or typing"), HelpPages::tr("edit the cell")},
+        {"Tab, Shift+Tab", HelpPages::tr("next, previous field")},
+        {HelpPages::tr("Up, Down"), HelpPages::tr("a step more, a step less in a number")},
+        {"F", HelpPages::tr("the whole lens, the whole picture")},
+        {"Ctrl+C", HelpPages::tr("copy the chosen rows with every digit")},
+        {"Alt", HelpPages::tr("the menus, by their underlined letters")}};
     for (const auto& [keys, what] : in_panels) {
         page += table_row(keys, what);
     }
@@ -118,16 +127,15 @@ QStringList library_versions() {
 }
 
 QString about_page(const GlSupport& gl) {
-    QString page =
-        QStringLiteral("<h1>Ghostlight %1</h1><p>%2</p><table>")
-            .arg(QCoreApplication::applicationVersion(),
-                 QApplication::tr("Lens-flare analysis workbench. BSD 3-clause licence."));
+    QString page = QStringLiteral("<h1>Ghostlight %1</h1><p>%2</p><table>")
+                       .arg(QCoreApplication::applicationVersion(),
+                            HelpPages::tr("Lens-flare analysis workbench. BSD 3-clause licence."));
     page += table_row("OpenGL", gl.renderer.isEmpty() ? gl.reason
                                                       : gl.renderer + ", " + gl.version +
                                                             (gl.is_usable ? "" : ": " + gl.reason));
     page += table_row(
-        QApplication::tr("Processor"),
-        QApplication::tr("%1, %2 threads").arg(instruction_set_name()).arg(default_thread_count()));
+        HelpPages::tr("Processor"),
+        HelpPages::tr("%1, %2 threads").arg(instruction_set_name()).arg(default_thread_count()));
     for (const QString& line : library_versions()) {
         page += table_row(line.section(' ', 0, -2), line.section(' ', -1));
     }

@@ -18,6 +18,9 @@ std::optional<QString> docs_folder();
 /// The headings of a Markdown page, without those in its code blocks.
 QStringList headings(const QString& markdown);
 
+/// What the guide, which is in English, calls the panel of that object name ("first_order").
+QString guide_title(QString panel_name);
+
 /// The heading that is about a panel of that title ("Ghosts": "The ghost table"), or an empty text:
 /// the first that begins with it, else the first that has it as a word; an article in front and
 /// a plural are not counted.

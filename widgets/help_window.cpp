@@ -160,7 +160,13 @@ bool HelpWindow::show_guide(const QString& panel_title) {
     }
     const QStringList all = headings(QString::fromUtf8(file.readAll()));
     setWindowTitle(tr("User guide"));
-    browser_->setSource(QUrl::fromLocalFile(path), QTextDocument::MarkdownResource);
+    const QUrl guide = QUrl::fromLocalFile(path);
+    const bool is_covered = shows_page_ && browser_->source() == guide;
+    browser_->setSource(guide, QTextDocument::MarkdownResource);
+    if (is_covered) {  // a page without a source stands over it
+        browser_->reload();
+    }
+    shows_page_ = false;
     space_out(*browser_->document());
     come();
     const QString heading = panel_title.isEmpty() ? QString() : heading_about(panel_title, all);
@@ -174,6 +180,7 @@ bool HelpWindow::show_guide(const QString& panel_title) {
 void HelpWindow::show_page(const QString& title, const QString& html) {
     setWindowTitle(title);
     browser_->setHtml(html);
+    shows_page_ = true;
     come();
 }
 

@@ -29,6 +29,7 @@ class HelpWindow : public QWidget {
 
     Browser* pages_;
     QTextBrowser* browser_;
+    bool shows_page_ = false;  ///< made by the program, over the guide
 };
 
 }  // namespace ghostlight

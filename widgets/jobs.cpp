@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/flare/paraxial_flare.h"
+#include "core/flare/first_look.h"
 
 namespace ghostlight {
 
@@ -177,7 +177,9 @@ void Jobs::draw_flare(const Snapshot& job, const std::stop_token& stop) {
         last_plan_ = nullptr;
         if (job.scene.layers.shows(LayerKind::ghosts)) {
             const FlareScene& scene = layered_.compiled(job.lens, light.spectrum);
-            if (auto image = render_paraxial(scene, request)) {
+            FlareRequest look = request;
+            look.width_px = first_look_width_px;
+            if (auto image = render_first_look(scene, look)) {
                 show({std::make_shared<const FlareImage>(std::move(*image)), {}, 0.0}, job, false,
                      true);
             }

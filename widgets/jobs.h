@@ -25,13 +25,13 @@ struct FlarePicture {
     std::shared_ptr<const FlareImage> image;
     std::uint64_t revision = 0;
     std::chrono::steady_clock::time_point changed_at{};  ///< of that revision
-    bool is_final = false;       ///< else a coarse one, to be followed by a finer
-    bool is_first_look = false;  ///< of a lens just opened: to first order, its error unknown
+    bool is_final = false;                ///< else a coarse one, to be followed by a finer
+    bool is_first_look = false;           ///< of a lens just opened: each ghost from a few rays
     std::vector<ShownLayer> layers = {};  ///< that the image is the sum of, without their gains
 };
 
 /// The work behind the views, off the GUI thread: after every change a coarse picture at once (for
-/// a lens just opened a paraxial one even before), a fine one next, then, once, the trial of the
+/// a lens just opened a first look even before), a fine one next, then, once, the trial of the
 /// engines, and the ghost table when the hand has come to rest. Newer changes replace older
 /// ones. A coarse picture that is done while the light moves on is still shown, so that there is
 /// motion; every other result that is out of date is dropped.

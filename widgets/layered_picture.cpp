@@ -82,12 +82,13 @@ bool LayeredPicture::is_at_rest(const Wanted& wanted) const {
 }
 
 std::optional<FlareImage> LayeredPicture::draw_layer(LayerKind kind, const SceneView& view,
-                                                     const Wanted& wanted, std::stop_token stop) {
+                                                     const Wanted& wanted, const FlareImage* ghosts,
+                                                     std::stop_token stop) {
     switch (kind) {
         case LayerKind::ghosts:
             return ghosts_layer(view, wanted.request, std::move(stop));
         case LayerKind::veil:
-            return veil_layer(view, wanted.request, std::move(stop));
+            return veil_layer(view, wanted.request, std::move(stop), ghosts);
         case LayerKind::backdrop:
             if (!wanted.scene.backdrop.file.empty()) {
                 return read_backdrop(
@@ -143,7 +144,11 @@ std::optional<LayeredPicture::Result> LayeredPicture::make(const Wanted& wanted,
             result.layers.push_back({kind, kept->image});
             continue;
         }
-        std::optional<FlareImage> image = draw_layer(kind, view, wanted, stop);
+        // Ghosts come before the veil.
+        const auto ghosts = std::ranges::find(result.layers, LayerKind::ghosts, &ShownLayer::kind);
+        std::optional<FlareImage> image =
+            draw_layer(kind, view, wanted,
+                       ghosts == result.layers.end() ? nullptr : ghosts->image.get(), stop);
         if (!image) {
             return std::nullopt;
         }

@@ -57,7 +57,8 @@ class LayeredPicture {
     };
     const Kept* find(LayerKind kind, const Wanted& wanted) const;
     std::optional<FlareImage> draw_layer(LayerKind kind, const SceneView& view,
-                                         const Wanted& wanted, std::stop_token stop);
+                                         const Wanted& wanted, const FlareImage* ghosts,
+                                         std::stop_token stop);
     /// While a light moves: its pattern at a few fields, moved.
     std::optional<FlareImage> moving_starburst(const Prescription& lens,
                                                const StarburstRequest& request);

@@ -1,5 +1,7 @@
 #include "widgets/layout_export.h"
 
+#include <QCoreApplication>
+
 #include <QFileInfo>
 #include <QImage>
 #include <QPageSize>
@@ -18,6 +20,11 @@
 namespace ghostlight {
 
 namespace {
+
+/// Texts for people, as translators know them.
+struct LayoutExport {
+    Q_DECLARE_TR_FUNCTIONS(LayoutExport)
+};
 
 constexpr double longest_px = 1200.0;
 constexpr double margin_px = 24.0;
@@ -136,8 +143,8 @@ void export_layout(const QString& file, const std::vector<PaperShape>& shapes,
                    const DrawingBox& box) {
     const QString kind = QFileInfo(file).suffix().toLower();
     const Sheet sheet(box);
-    const auto refuse = [&](const char* problem, const char* expected) {
-        throw Error({problem, file.toStdString(), {}, {}, expected});
+    const auto refuse = [&](const QString& problem, const QString& expected) {
+        throw Error({problem.toStdString(), file.toStdString(), {}, {}, expected.toStdString()});
     };
     if (kind == "svg") {
         write_file_safely(file.toStdString(), layout_as_svg(shapes, box).toStdString());
@@ -149,7 +156,8 @@ void export_layout(const QString& file, const std::vector<PaperShape>& shapes,
         writer.setPageMargins(QMarginsF());
         QPainter painter;
         if (!painter.begin(&writer)) {
-            refuse("cannot write the drawing", "a file that can be written");
+            refuse(LayoutExport::tr("cannot write the drawing"),
+                   LayoutExport::tr("a file that can be written"));
         }
         paint(painter, sheet, shapes);
     } else if (kind == "png") {
@@ -161,10 +169,12 @@ void export_layout(const QString& file, const std::vector<PaperShape>& shapes,
         paint(painter, sheet, shapes);
         painter.end();
         if (!picture.save(file)) {
-            refuse("cannot write the drawing", "a file that can be written");
+            refuse(LayoutExport::tr("cannot write the drawing"),
+                   LayoutExport::tr("a file that can be written"));
         }
     } else {
-        refuse("not a kind of drawing", "a name that ends in .svg, .pdf or .png");
+        refuse(LayoutExport::tr("not a kind of drawing"),
+               LayoutExport::tr("a name that ends in .svg, .pdf or .png"));
     }
 }
 

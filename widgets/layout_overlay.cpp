@@ -1,5 +1,7 @@
 #include "widgets/layout_overlay.h"
 
+#include <QCoreApplication>
+
 #include <QFont>
 #include <QObject>
 #include <QPainter>
@@ -11,14 +13,19 @@
 #include "widgets/ghost_colors.h"
 #include "widgets/number_text.h"
 #include "widgets/palette.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
 namespace {
 
+/// Texts for people, as translators know them.
+struct LayoutOverlay {
+    Q_DECLARE_TR_FUNCTIONS(LayoutOverlay)
+};
+
 constexpr double mark_radius_px = 8.0;
 constexpr double label_gap_px = 6.0;
-constexpr int small_font_px = 11;
 
 void paint_hovered(QPainter& painter, const LensDrawing& drawing, const PlaneView& plane,
                    const SurfaceOutline& surface) {
@@ -42,7 +49,7 @@ void paint_hovered(QPainter& painter, const LensDrawing& drawing, const PlaneVie
 void paint_sensor_label(QPainter& painter, const LensDrawing& drawing, const PlaneView& plane) {
     const QPointF end = plane.to_view({drawing.sensor.z_mm, -drawing.sensor.half_length_mm});
     painter.setPen(current_palette().dim);
-    painter.drawText(QPointF(end.x() + label_gap_px, end.y()), QObject::tr("sensor"));
+    painter.drawText(QPointF(end.x() + label_gap_px, end.y()), LayoutOverlay::tr("sensor"));
 }
 
 struct PlacedMark {
@@ -98,9 +105,7 @@ void paint_marks(QPainter& painter, const std::vector<RayFan>& fans, const Plane
 void paint_layout_overlay(QPainter& painter, const LensDrawing& drawing,
                           const std::vector<RayFan>& fans, const PlaneView& plane,
                           const SurfaceOutline* hovered) {
-    QFont font = painter.font();
-    font.setPixelSize(small_font_px);
-    painter.setFont(font);
+    painter.setFont(small_font());
     if (hovered != nullptr) {
         paint_hovered(painter, drawing, plane, *hovered);
     }
@@ -160,14 +165,15 @@ void paint_meeting(QPainter& painter, const RayMeeting& meeting, const PlaneView
     painter.setPen(QPen(current_palette().teal, 1.5));
     painter.setBrush(Qt::NoBrush);
     painter.drawEllipse(at, 4.0, 4.0);
-    paint_label(painter, at,
-                QObject::tr("surface %1 · %2 · %3° · R %4 % · T %5 %")
-                    .arg(meeting.row + 1)
-                    .arg(meeting.reflected ? QObject::tr("reflected") : QObject::tr("passes"),
-                         QString::number(meeting.incidence_deg, 'f', 1),
-                         significant(100.0 * meeting.reflectance, 3),
-                         significant(100.0 * meeting.transmittance, 4)),
-                plane.size_px());
+    paint_label(
+        painter, at,
+        LayoutOverlay::tr("surface %1 · %2 · %3° · R %4 % · T %5 %")
+            .arg(meeting.row + 1)
+            .arg(meeting.reflected ? LayoutOverlay::tr("reflected") : LayoutOverlay::tr("passes"),
+                 QString::number(meeting.incidence_deg, 'f', 1),
+                 significant(100.0 * meeting.reflectance, 3),
+                 significant(100.0 * meeting.transmittance, 4)),
+        plane.size_px());
 }
 
 void paint_measure(QPainter& painter, DrawingPoint from, DrawingPoint to, const PlaneView& plane) {
@@ -180,7 +186,7 @@ void paint_measure(QPainter& painter, DrawingPoint from, DrawingPoint to, const 
     }
     paint_label(
         painter, b,
-        QObject::tr("%1 mm   along %2   across %3")
+        LayoutOverlay::tr("%1 mm   along %2   across %3")
             .arg(significant(std::hypot(to.x - from.x, to.y - from.y)),
                  significant(std::abs(to.x - from.x)), significant(std::abs(to.y - from.y))),
         plane.size_px());

@@ -1,5 +1,7 @@
 #include "widgets/lens_filters.h"
 
+#include <QCoreApplication>
+
 #include <QStringList>
 
 #include "core/io/formats.h"
@@ -7,6 +9,11 @@
 namespace ghostlight {
 
 namespace {
+
+/// Texts for people, as translators know them.
+struct LensFilters {
+    Q_DECLARE_TR_FUNCTIONS(LensFilters)
+};
 
 QString text_of(std::string_view text) {
     return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
@@ -35,8 +42,8 @@ QString lens_open_filter() {
         filters << filter_of(format);
     }
     every.removeDuplicates();
-    filters.prepend(QStringLiteral("All lens files (%1)").arg(every.join(' ')));
-    filters << QStringLiteral("All files (*)");
+    filters.prepend(LensFilters::tr("All lens files (%1)").arg(every.join(' ')));
+    filters << LensFilters::tr("All files (*)");
     return filters.join(";;");
 }
 

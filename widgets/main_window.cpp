@@ -103,7 +103,7 @@ QDockWidget* MainWindow::add_dock(QWidget* panel, const char* name, const QStrin
     if (auto* header = panel->findChild<PanelHeader*>()) {
         dock->setTitleBarWidget(header);
         header->setToolTip(
-            "Drag to move the panel, double-click to float it, right-click to close");
+            tr("Drag to move the panel, double-click to float it, right-click to close"));
     }
     // On a low screen a panel shows less; none may make the window taller than the screen.
     constexpr int least_height_px = 110;
@@ -133,15 +133,16 @@ void MainWindow::build_panels() {
     setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);  // reports have long lines
     setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
     prescription_dock_ =
-        add_dock(prescription_, "prescription", "Prescription", Qt::LeftDockWidgetArea);
-    layout_dock_ = add_dock(layout_, "layout", "Layout", Qt::TopDockWidgetArea);
-    ghost_dock_ = add_dock(ghosts_, "ghosts", "Ghosts", Qt::RightDockWidgetArea);
+        add_dock(prescription_, "prescription", tr("Prescription"), Qt::LeftDockWidgetArea);
+    layout_dock_ = add_dock(layout_, "layout", tr("Layout"), Qt::TopDockWidgetArea);
+    ghost_dock_ = add_dock(ghosts_, "ghosts", tr("Ghosts"), Qt::RightDockWidgetArea);
     first_order_dock_ =
-        add_dock(first_order_, "first_order", "First order", Qt::RightDockWidgetArea);
-    stop_dock_ = add_dock(stop_, "stop", "Stop", Qt::RightDockWidgetArea);
-    light_dock_ = add_dock(light_, "light", "Light", Qt::RightDockWidgetArea);
+        add_dock(first_order_, "first_order", tr("First order"), Qt::RightDockWidgetArea);
+    stop_dock_ = add_dock(stop_, "stop", tr("Stop"), Qt::RightDockWidgetArea);
+    light_dock_ = add_dock(light_, "light", tr("Light"), Qt::RightDockWidgetArea);
     build_editing();
-    report_dock_ = add_dock(report_, "import_report", "Import report", Qt::BottomDockWidgetArea);
+    report_dock_ =
+        add_dock(report_, "import_report", tr("Import report"), Qt::BottomDockWidgetArea);
     understanding_ = std::make_unique<Understanding>(Understanding::Parts{
         *this, document_, selection_, actions_, *prescription_, *layout_, *flare_, *ghosts_,
         remembers_, [this](QWidget* panel, const char* name, const QString& title) {
@@ -161,36 +162,36 @@ void MainWindow::build_panels() {
 
 void MainWindow::build_menus() {
     QMenuBar& bar = *menuBar();
-    QMenu* file = bar.addMenu("&File");
+    QMenu* file = bar.addMenu(tr("&File"));
     actions_.fill(*file, {"file.open", "file.gallery"});
-    QMenu* bundled = file->addMenu("Open &Bundled");
+    QMenu* bundled = file->addMenu(tr("Open &Bundled"));
     connect(bundled, &QMenu::aboutToShow, this,
             [this, bundled] { files_->fill_bundled(*bundled); });
-    QMenu* recent = file->addMenu("Open &Recent");
+    QMenu* recent = file->addMenu(tr("Open &Recent"));
     connect(recent, &QMenu::aboutToShow, this, [this, recent] { files_->fill_recent(*recent); });
     actions_.fill(*file, {"-", "file.save", "file.save_as", "-", "file.export_lens",
                           "file.export_ghost", "file.export_table", "file.export_exr",
                           "file.export_png", "-", "file.glass_folders", "-", "file.quit"});
-    actions_.add_menu(bar, "&Edit", {"edit.undo",       "edit.redo",          "-",
-                                     "edit.insert",     "edit.delete",        "edit.move_up",
-                                     "edit.move_down",  "edit.make_stop",     "-",
-                                     "edit.copy_cells", "edit.paste_cells",   "edit.vary",
-                                     "edit.auto_size",  "edit.own_thickness", "-",
-                                     "edit.scale",      "edit.reverse",       "-",
-                                     "edit.mend_glass", "edit.absorption"});
-    actions_.add_menu(bar, "&Ghosts",
+    actions_.add_menu(bar, tr("&Edit"), {"edit.undo",       "edit.redo",          "-",
+                                         "edit.insert",     "edit.delete",        "edit.move_up",
+                                         "edit.move_down",  "edit.make_stop",     "-",
+                                         "edit.copy_cells", "edit.paste_cells",   "edit.vary",
+                                         "edit.auto_size",  "edit.own_thickness", "-",
+                                         "edit.scale",      "edit.reverse",       "-",
+                                         "edit.mend_glass", "edit.absorption"});
+    actions_.add_menu(bar, tr("&Ghosts"),
                       {"ghosts.filter", "ghosts.as_table", "ghosts.as_matrix", "ghosts.as_surfaces",
                        "-", "ghosts.copy", "ghosts.clear", "-", "ghosts.all", "ghosts.above_3",
                        "ghosts.above_2", "-", "sweep.run", "check.show"});
     actions_.add_menu(
-        bar, "&Compare",
+        bar, tr("&Compare"),
         {"compare.pin", "compare.restore", "compare.unpin", "-", "compare.split", "compare.blink"});
-    QMenu* view = actions_.add_menu(bar, "&View", {"view.fit", "view.expose", "-"});
-    actions_.fill(*view->addMenu("&Flare"),
+    QMenu* view = actions_.add_menu(bar, tr("&View"), {"view.fit", "view.expose", "-"});
+    actions_.fill(*view->addMenu(tr("&Flare")),
                   {"flare.false_color", "flare.clipping", "-", "tone.soft", "tone.linear",
                    "tone.log", "-", "flare.full_screen"});
-    actions_.fill(*view->addMenu("La&yout"), {"layout.fields", "layout.marks", "layout.stopped",
-                                              "-", "layout.measure", "layout.export"});
+    actions_.fill(*view->addMenu(tr("La&yout")), {"layout.fields", "layout.marks", "layout.stopped",
+                                                  "-", "layout.measure", "layout.export"});
     view->addSeparator();
     for (QDockWidget* dock :
          {prescription_dock_, layout_dock_, ghost_dock_, first_order_dock_, stop_dock_, light_dock_,
@@ -203,10 +204,10 @@ void MainWindow::build_menus() {
                    "report.matters", "report.copy", "first_order.copy", "-", "view.curvatures",
                    "view.aspheres", "view.comments", "-", "view.light_theme", "view.safe_colors",
                    "view.larger_text", "view.smaller_text"});
-    actions_.fill(*view->addMenu("&Draw Flares With"),
+    actions_.fill(*view->addMenu(tr("&Draw Flares With")),
                   {"engine.automatic", "engine.cpu", "engine.opengl"});
     actions_.add_menu(
-        bar, "&Help",
+        bar, tr("&Help"),
         {"help.guide", "help.commands", "help.shortcuts", "help.tour", "-", "help.about"});
 }
 
@@ -277,7 +278,7 @@ void MainWindow::connect_document() {
     connect(flare_, &FlarePanel::light_dragged, this, [this](const LightDirection& light) {
         Scene scene = document_.scene();
         scene.light().direction = light;
-        document_.edit_scene(scene, "move the light", "light");
+        document_.edit_scene(scene, tr("move the light"), "light");
     });
     connect(layout_, &LayoutPanel::surface_hovered, prescription_,
             &PrescriptionPanel::set_hovered_row);
@@ -320,8 +321,8 @@ void MainWindow::connect_actions() {
     const auto name_steps = [this, &history] {
         actions_["edit.undo"].setEnabled(history.canUndo());
         actions_["edit.redo"].setEnabled(history.canRedo());
-        actions_["edit.undo"].setText("&Undo " + history.undoText());
-        actions_["edit.redo"].setText("&Redo " + history.redoText());
+        actions_["edit.undo"].setText(tr("&Undo %1").arg(history.undoText()));
+        actions_["edit.redo"].setText(tr("&Redo %1").arg(history.redoText()));
     };
     connect(&history, &QUndoStack::indexChanged, this, name_steps);
     name_steps();
@@ -366,8 +367,8 @@ void MainWindow::connect_absorption() {
     actions_.on("edit.absorption", [this, &absorb] {
         Prescription lens = document_.lens();
         lens.internal_transmittance = absorb.isChecked();
-        document_.edit_lens(lens,
-                            absorb.isChecked() ? "let glasses absorb" : "make glass lossless");
+        document_.edit_lens(
+            lens, absorb.isChecked() ? tr("let glasses absorb") : tr("make glass lossless"));
     });
     const auto follow = [this, &absorb] {
         const Prescription& lens = document_.lens();
@@ -376,9 +377,10 @@ void MainWindow::connect_absorption() {
         });
         absorb.setChecked(lens.internal_transmittance);
         absorb.setEnabled(is_known || lens.internal_transmittance);
-        absorb.setToolTip(is_known ? absorb.statusTip()
-                                   : "No glass of this lens has a table of internal transmittance: "
-                                     "open it with a catalogue (AGF) that has one");
+        absorb.setToolTip(is_known
+                              ? absorb.statusTip()
+                              : tr("No glass of this lens has a table of internal transmittance: "
+                                   "open it with a catalogue (AGF) that has one"));
     };
     connect(&document_, &Document::changed, this, follow);
     follow();
@@ -429,10 +431,10 @@ void MainWindow::offer_recovery() {
         }
     });
     banner_->show_offer(topic,
-                        QStringLiteral("Unsaved edits of %1 from %2 were found.")
+                        tr("Unsaved edits of %1 from %2 were found.")
                             .arg(QString::fromStdString(leftover->state.lens.name),
-                                 leftover->time.toString("d MMM, HH:mm")),
-                        "Recover");
+                                 leftover->time.toString("yyyy-MM-dd HH:mm")),
+                        tr("Recover"));
 }
 
 bool MainWindow::open(const std::filesystem::path& file) { return files_->open(file); }
@@ -454,6 +456,7 @@ void MainWindow::show_scene() {
                            drawing_wavelength_nm(document_.scene()), selection_.ghosts());
         const double efl_mm = first_order(compile(lens, d_line_nm)).efl_mm;
         flare_->set_light(document_.scene().light().direction, efl_mm);
+        flare_->set_other_lights(other_lights(document_.scene()));
     } catch (const Error& error) {
         show_failure(error.what());
     }
@@ -480,10 +483,10 @@ bool MainWindow::show_unknown_glass() {
     if (!row) {
         return false;
     }
-    banner_->show_offer("trace",
-                        why_unknown(document_.lens(), *row) +
-                            QStringLiteral(" Flare and ghosts follow once it is mended."),
-                        "Choose a glass…");
+    banner_->show_offer(
+        "trace",
+        why_unknown(document_.lens(), *row) + tr(" Flare and ghosts follow once it is mended."),
+        tr("Choose a glass…"));
     return true;
 }
 

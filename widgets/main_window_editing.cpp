@@ -15,10 +15,10 @@ void MainWindow::build_editing() {
     coating_ = new CoatingPanel(document_, selection_, actions_);
     configurations_ = new ConfigurationPanel(document_);
     glasses_ = new GlassPanel(document_);
-    coating_dock_ = add_dock(coating_, "coating", "Coating", Qt::LeftDockWidgetArea);
+    coating_dock_ = add_dock(coating_, "coating", tr("Coating"), Qt::LeftDockWidgetArea);
     configuration_dock_ =
-        add_dock(configurations_, "configurations", "Configurations", Qt::LeftDockWidgetArea);
-    glass_dock_ = add_dock(glasses_, "glasses", "Glasses", Qt::LeftDockWidgetArea);
+        add_dock(configurations_, "configurations", tr("Configurations"), Qt::LeftDockWidgetArea);
+    glass_dock_ = add_dock(glasses_, "glasses", tr("Glasses"), Qt::LeftDockWidgetArea);
 }
 
 void MainWindow::arrange_editing() {

@@ -160,7 +160,7 @@ void MainWindow::show_guide() {
     QString title;
     for (const QDockWidget* dock : findChildren<QDockWidget*>()) {
         if (holds_focus(*dock)) {
-            title = dock->windowTitle();
+            title = guide_title(dock->objectName());
         }
     }
     if (holds_focus(*flare_)) {

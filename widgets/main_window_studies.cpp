@@ -19,8 +19,8 @@ constexpr int height_percent = 42;  ///< of the window, when one is opened at th
 void MainWindow::build_studies() {
     fit_ = new FitPanel(document_, actions_);
     accuracy_ = new AccuracyPanel(document_, actions_);
-    fit_dock_ = add_dock(fit_, "fit", "Fit", Qt::BottomDockWidgetArea);
-    accuracy_dock_ = add_dock(accuracy_, "accuracy", "Accuracy", Qt::BottomDockWidgetArea);
+    fit_dock_ = add_dock(fit_, "fit", tr("Fit"), Qt::BottomDockWidgetArea);
+    accuracy_dock_ = add_dock(accuracy_, "accuracy", tr("Accuracy"), Qt::BottomDockWidgetArea);
     for (QDockWidget* dock : {fit_dock_, accuracy_dock_}) {
         dock->hide();
         connect(dock->toggleViewAction(), &QAction::triggered, this, [this, dock](bool shown) {

@@ -1,5 +1,7 @@
 #include "widgets/prescription_edits.h"
 
+#include <QCoreApplication>
+
 #include <algorithm>
 #include <utility>
 
@@ -8,6 +10,11 @@
 namespace ghostlight {
 
 namespace {
+
+/// Texts for people, as translators know them.
+struct PrescriptionEdits {
+    Q_DECLARE_TR_FUNCTIONS(PrescriptionEdits)
+};
 
 /// Renumbers what refers to rows; `place` says where a row went.
 template <class Place>
@@ -55,11 +62,12 @@ Prescription with_row_inserted_after(Prescription lens, std::size_t row) {
 
 Prescription with_row_removed(Prescription lens, std::size_t row) {
     if (lens.surfaces.size() <= 1) {
-        throw Error("a lens keeps at least one surface");
+        throw Error(PrescriptionEdits::tr("a lens keeps at least one surface").toStdString());
     }
     if (lens.stop.surface == row) {
-        throw Error("surface " + std::to_string(row + 1) +
-                    " is the stop: make another one the stop first");
+        throw Error(PrescriptionEdits::tr("surface %1 is the stop: make another one the stop first")
+                        .arg(row + 1)
+                        .toStdString());
     }
     lens.surfaces.erase(lens.surfaces.begin() + offset(row));
     for (Configuration& configuration : lens.configurations) {
@@ -71,7 +79,7 @@ Prescription with_row_removed(Prescription lens, std::size_t row) {
 
 Prescription with_row_moved(Prescription lens, std::size_t from, std::size_t to) {
     if (from >= lens.surfaces.size() || to >= lens.surfaces.size()) {
-        throw Error("there is no row to move to");
+        throw Error(PrescriptionEdits::tr("there is no row to move to").toStdString());
     }
     const auto first = lens.surfaces.begin();
     if (from < to) {
@@ -93,7 +101,7 @@ Prescription with_row_moved(Prescription lens, std::size_t from, std::size_t to)
 
 Prescription with_stop_at(Prescription lens, std::size_t row) {
     if (row >= lens.surfaces.size()) {
-        throw Error("there is no row " + std::to_string(row + 1));
+        throw Error(PrescriptionEdits::tr("there is no row %1").arg(row + 1).toStdString());
     }
     lens.stop.surface = row;
     return lens;
@@ -132,7 +140,9 @@ Prescription with_own_thickness(Prescription lens, const std::string& configurat
                                 std::size_t row, bool own) {
     Configuration* known = find_configuration(lens, configuration);
     if (known == nullptr) {
-        throw Error("choose a configuration first: the lens as listed has no other values");
+        throw Error(PrescriptionEdits::tr(
+                        "choose a configuration first: the lens as listed has no other values")
+                        .toStdString());
     }
     if (own) {
         known->thickness_mm.emplace(row, lens.surfaces.at(row).thickness_mm);

@@ -56,6 +56,7 @@ int hidden_height_px(const QWidget& panel) {
 /// panel_NAME.png.
 void write_panels(MainWindow& window, const std::filesystem::path& folder, SnapshotPanels which) {
     constexpr int highest_px = 2000;
+    constexpr int least_px = 380;  // about what opening one at the bottom gives it
     const QByteArray places = window.saveState();
     const bool every = which == SnapshotPanels::every;
     if (every) {
@@ -71,7 +72,7 @@ void write_panels(MainWindow& window, const std::filesystem::path& folder, Snaps
         dock->show();
         dock->raise();
         run_events(drawing_ms);
-        const QSize size = dock->size();
+        const QSize size = dock->size().expandedTo({0, least_px});
         dock->setFloating(true);
         dock->resize(size);
         run_events(drawing_ms);

@@ -14,7 +14,6 @@ namespace ghostlight {
 namespace {
 
 /// At 96 dpi; a point size would follow a display's odd physical resolution.
-constexpr int usual_text_px = 13;
 
 QColor mixed(const QColor& a, const QColor& b, double share_of_b) {
     const auto channel = [&](int from, int to) { return qRound(from + (to - from) * share_of_b); };
@@ -62,7 +61,8 @@ QMenu::item:selected { background: @selection; }
 QMenu::item:disabled { color: @faint; }
 QMenu::separator { height: 1px; background: @line; margin: 4px 0; }
 QToolTip { background: @ground; color: @text; border: 1px solid @line; padding: 4px 6px; }
-QTableView { background: @panel; border: none; outline: none; gridline-color: transparent;
+QTableView, QTreeView { background: @panel; border: none; outline: none;
+    gridline-color: transparent; show-decoration-selected: 1;
     selection-background-color: @selection; selection-color: @text; }
 QHeaderView { background: @panel; border: none; }
 QHeaderView::section { background: @panel; color: @dim; border: none;

@@ -13,6 +13,7 @@ struct Look {
     bool operator==(const Look&) const = default;
 };
 inline constexpr double least_text_scale = 0.7, most_text_scale = 2.0;
+inline constexpr int usual_text_px = 13;  ///< height of the font at a scale of 1
 
 /// Colours, font and the look of plain controls for the whole program. Widgets that paint
 /// themselves read current_palette() and are told by a palette-change event.

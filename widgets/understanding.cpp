@@ -17,6 +17,7 @@
 #include "widgets/flare_view.h"
 #include "widgets/ghost_colors.h"
 #include "widgets/models/ghost_table_model.h"
+#include "widgets/models/prescription_model.h"
 #include "widgets/number_text.h"
 #include "widgets/panels/check_panel.h"
 #include "widgets/panels/flare_panel.h"
@@ -34,25 +35,25 @@ namespace {
 constexpr int blink_ms = 600;
 constexpr std::size_t named_ghosts = 6;  // in the readout beside the cursor
 
-/// How the prescription's header begins for a cell.
-const char* header_of(LensCell cell) {
+/// The prescription's column of a cell; −1 for the lens as a whole.
+int column_of(LensCell cell) {
     switch (cell) {
         case LensCell::curve:
-            return "Radius";
+            return PrescriptionModel::radius;
         case LensCell::asphere:
-            return "Asphere";
+            return PrescriptionModel::aspheric;
         case LensCell::thickness:
-            return "Thickness";
+            return PrescriptionModel::thickness;
         case LensCell::medium:
-            return "nd";
+            return PrescriptionModel::medium;
         case LensCell::semi_diameter:
-            return "Semi";
+            return PrescriptionModel::semi_diameter;
         case LensCell::coating:
-            return "Coating";
+            return PrescriptionModel::coating;
         case LensCell::whole:
             break;
     }
-    return nullptr;
+    return -1;
 }
 
 void go_to_cell(PrescriptionPanel& panel, int row, LensCell cell) {
@@ -61,14 +62,11 @@ void go_to_cell(PrescriptionPanel& panel, int row, LensCell cell) {
     if (table == nullptr || table->model() == nullptr) {
         return;
     }
-    const QString wanted = QString::fromUtf8(header_of(cell));
-    for (int column = 0; column < table->model()->columnCount(); ++column) {
-        const QString header = table->model()->headerData(column, Qt::Horizontal).toString();
-        if (!wanted.isEmpty() && header.startsWith(wanted) && !table->isColumnHidden(column)) {
-            const QModelIndex index = table->model()->index(row, column);
-            table->setCurrentIndex(index);
-            table->scrollTo(index);
-        }
+    const int column = column_of(cell);
+    if (column >= 0 && !table->isColumnHidden(column)) {
+        const QModelIndex index = table->model()->index(row, column);
+        table->setCurrentIndex(index);
+        table->scrollTo(index);
     }
     table->setFocus();
 }
@@ -81,8 +79,8 @@ Understanding::Understanding(Parts parts)
       comparison_(std::make_unique<Comparison>(parts_.document)),
       check_(new CheckPanel(parts_.document, parts_.selection)),
       sweep_(new SweepPanel(parts_.document, parts_.selection)) {
-    check_dock_ = parts_.add_dock(check_, "check", "Check");
-    sweep_dock_ = parts_.add_dock(sweep_, "sweep", "Sweep");
+    check_dock_ = parts_.add_dock(check_, "check", tr("Check"));
+    sweep_dock_ = parts_.add_dock(sweep_, "sweep", tr("Sweep"));
     blink_.setInterval(blink_ms);
     connect_probe();
     connect_comparison();
@@ -119,8 +117,7 @@ void Understanding::show_answer(const ProbeJob::Purpose& purpose, const ProbedPi
     std::vector<ReadoutLine> lines;
     for (const GhostInPixel& ghost : pixel.ghosts) {
         if (lines.size() == named_ghosts && pixel.ghosts.size() > named_ghosts + 1) {
-            lines.push_back(
-                {QStringLiteral("%1 more").arg(pixel.ghosts.size() - named_ghosts), {}, {}});
+            lines.push_back({tr("%1 more").arg(pixel.ghosts.size() - named_ghosts), {}, {}});
             break;
         }
         lines.push_back({QString::fromStdString(name(ghost.path, surface_count)),
@@ -161,7 +158,7 @@ void Understanding::connect_comparison() {
     actions.on("compare.unpin", [this] { comparison_->unpin(); });
     actions.on("compare.restore", [this] {
         if (comparison_->pinned()) {
-            parts_.document.edit_lens(comparison_->pinned()->lens, "take the pinned lens back");
+            parts_.document.edit_lens(comparison_->pinned()->lens, tr("take the pinned lens back"));
         }
     });
     actions["compare.split"].setChecked(true);
@@ -225,8 +222,9 @@ void Understanding::connect_looks() {
     connect_switch("layout.stopped", false, [layout](bool on) { layout->set_stopped_rays(on); });
     connect(&actions["layout.measure"], &QAction::toggled, layout, &LayoutPanel::set_measuring);
     actions.on("layout.export", [this, layout] {
-        const QString file = QFileDialog::getSaveFileName(
-            &parts_.window, "Export the Layout", "layout.svg", "Drawings (*.svg *.pdf *.png)");
+        const QString file =
+            QFileDialog::getSaveFileName(&parts_.window, tr("Export the Layout"), "layout.svg",
+                                         tr("Drawings (*.svg *.pdf *.png)"));
         if (!file.isEmpty()) {
             layout->export_to(file);
         }
@@ -293,8 +291,7 @@ void Understanding::connect_panels() {
     connect(&parts_.ghosts, &GhostPanel::surface_chosen, this,
             [this](int row) { go_to_cell(parts_.prescription, row, LensCell::coating); });
     connect(check_, &CheckPanel::counted, this, [this](int grave) {
-        check_dock_->setWindowTitle(grave > 0 ? QStringLiteral("Check (%1)").arg(grave)
-                                              : QStringLiteral("Check"));
+        check_dock_->setWindowTitle(grave > 0 ? tr("Check (%1)").arg(grave) : tr("Check"));
     });
 }
 

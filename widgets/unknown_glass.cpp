@@ -1,5 +1,7 @@
 #include "widgets/unknown_glass.h"
 
+#include <QCoreApplication>
+
 #include <algorithm>
 
 #include "core/error.h"
@@ -9,6 +11,11 @@
 namespace ghostlight {
 
 namespace {
+
+/// Texts for people, as translators know them.
+struct UnknownGlassText {
+    Q_DECLARE_TR_FUNCTIONS(UnknownGlassText)
+};
 
 constexpr std::size_t offered = 6;
 
@@ -30,10 +37,11 @@ std::optional<std::size_t> first_unknown_glass(const Prescription& lens) {
 QString why_unknown(const Prescription& lens, std::size_t row) {
     const Medium& medium = lens.surfaces[row].medium_after;
     const UnknownGlass* glass = unknown(medium);
-    const QString name = medium.name.empty()
-                             ? QStringLiteral("The glass")
-                             : QStringLiteral("Glass %1").arg(QString::fromStdString(medium.name));
-    return QStringLiteral("%1 after surface %2 is not known: %3.")
+    const QString name =
+        medium.name.empty()
+            ? UnknownGlassText::tr("The glass")
+            : UnknownGlassText::tr("Glass %1").arg(QString::fromStdString(medium.name));
+    return UnknownGlassText::tr("%1 after surface %2 is not known: %3.")
         .arg(name)
         .arg(row + 1)
         .arg(glass != nullptr ? QString::fromStdString(glass->why) : QString());

@@ -23,19 +23,19 @@ namespace {
 
 struct AccuracyOptions {
     std::vector<std::string> lenses;
-    std::string config, field, closed = "0", azimuth = "90";
+    std::string config, field, field_share, closed = "0", azimuth = "90";
     SpectrumOptions spectrum;
-    std::string width, reference, budget, folder, chart_folder = ".";
-    bool quick = false;
+    std::string width, reference, budget, folder, chart_folder = ".", name = "accuracy";
+    bool quick = false, brief = false;
 };
 
 /// Where nothing is said: part of the way to the sensor's corner.
 constexpr double usual_field_share = 0.4;
 
-double usual_field_deg(const Prescription& lens) {
+double field_deg_at(const Prescription& lens, double share) {
     const double efl_mm = std::abs(first_order(compile(lens, d_line_nm)).efl_mm);
     const double corner_mm = 0.5 * std::hypot(lens.sensor.width_mm, lens.sensor.height_mm);
-    const double field_deg = usual_field_share * deg_from_rad(std::atan(corner_mm / efl_mm));
+    const double field_deg = share * deg_from_rad(std::atan(corner_mm / efl_mm));
     return 0.1 * std::round(10.0 * field_deg);
 }
 
@@ -96,6 +96,13 @@ void run(const AccuracyOptions& options) {
     if (!options.field.empty())
         fields_deg = list_value("--field", options.field, "angles in degrees from -90 to 90",
                                 [](double deg) { return deg >= -90.0 && deg <= 90.0; });
+    std::vector<double> field_shares{usual_field_share};
+    if (!options.field_share.empty()) {
+        if (!options.field.empty())
+            throw Error("--field-share: fields are given as --field or as shares, not as both");
+        field_shares = list_value("--field-share", options.field_share, "shares from 0 to 1",
+                                  [](double share) { return share >= 0.0 && share <= 1.0; });
+    }
     const auto closings = list_value("--closed", options.closed, "stops from 0 to 12",
                                      [](double stops) { return stops >= 0.0 && stops <= 12.0; });
     const std::filesystem::path folder = options.folder;
@@ -114,6 +121,7 @@ void run(const AccuracyOptions& options) {
     };
     add_option("--config", options.config);
     add_option("--field", options.field);
+    add_option("--field-share", options.field_share);
     if (options.closed != "0") add_option("--closed", options.closed);
     if (options.azimuth != "90") add_option("--azimuth", options.azimuth);
     add_option("--wavelength", options.spectrum.wavelength);
@@ -130,8 +138,10 @@ void run(const AccuracyOptions& options) {
         which.config = options.config;
         const LoadedLens loaded = load_lens(which);
         print_notes(loaded.notes, Note::Severity::warning);
-        const auto fields =
-            fields_deg.empty() ? std::vector{usual_field_deg(loaded.lens)} : fields_deg;
+        std::vector<double> fields = fields_deg;
+        if (fields.empty())
+            for (const double share : field_shares)
+                fields.push_back(field_deg_at(loaded.lens, share));
         for (const double field : fields)
             for (const double stops : closings) {
                 AccuracyCase one{.heading = lens_heading(loaded),
@@ -153,13 +163,17 @@ void run(const AccuracyOptions& options) {
     }
 
     const Table rows = accuracy_rows(all);
-    write_file_safely(folder / "accuracy.csv", table_csv(rows));
+    const std::string& called = options.name;
+    write_file_safely(folder / (called + ".csv"), table_csv(rows));
     write_file_safely(folder / "ghosts.csv", table_csv(ghost_accuracy_rows(all)));
     for (const AccuracyCase& one : all.cases)
         write_file_safely(folder / chart_file(one), log_chart_svg(error_time_chart(one)));
-    write_file_safely(folder / "accuracy_promised.svg", log_chart_svg(promise_chart(all)));
-    write_file_safely(folder / "accuracy.html", accuracy_html(all));
-    write_file_safely(folder / "accuracy.md", accuracy_markdown(all, options.chart_folder));
+    write_file_safely(folder / (called + "_promised.svg"), log_chart_svg(promise_chart(all)));
+    write_file_safely(folder / (called + ".html"), accuracy_html(all));
+    write_file_safely(folder / (called + ".md"),
+                      accuracy_markdown(all, {.chart_folder = options.chart_folder,
+                                              .name = called,
+                                              .case_charts = !options.brief}));
 
     Table shown = select_columns(rows, {"lens", "field_deg", "method", "setting", "median_ms",
                                         "relative_l1", "energy", "resolved", "on_front"});
@@ -167,9 +181,9 @@ void run(const AccuracyOptions& options) {
     write_standard_output(
         table_text(shown) +
         fmt::format("\nThe plan kept its tolerance in {} of {} cases; {} are not resolved.\n"
-                    "{}: accuracy.csv, ghosts.csv, accuracy.html, accuracy.md and charts\n",
+                    "{}: {}.csv, ghosts.csv, {}.html, {}.md and charts\n",
                     promises.kept, promises.kept + promises.broken, promises.unresolved,
-                    folder.string()));
+                    folder.string(), called, called, called));
 }
 
 }  // namespace
@@ -184,8 +198,9 @@ void add_accuracy(CLI::App& program) {
              "folder for accuracy.csv, ghosts.csv, accuracy.html, accuracy.md and charts")
         ->required();
     add_text(*command, "--config", options->config, "NAME", "position of a zoom");
-    add_text(*command, "--field", options->field, "LIST",
-             "angles of the light, degrees; default: 0.4 of the way to the sensor's corner");
+    add_text(*command, "--field", options->field, "LIST", "angles of the light, degrees");
+    add_text(*command, "--field-share", options->field_share, "LIST",
+             "instead, shares of the angle of the sensor's corner; default 0.4");
     add_text(*command, "--azimuth", options->azimuth, "DEG",
              "direction of the field around the axis, degrees")
         ->capture_default_str();
@@ -199,6 +214,10 @@ void add_accuracy(CLI::App& program) {
     add_text(*command, "--budget", options->budget, "SECONDS",
              "for the timed frames of a lens and field, the reference not among them;\nsettings "
              "that would go beyond it are left out; default 60");
+    add_text(*command, "--name", options->name, "NAME",
+             "of the files: NAME.csv, NAME.html, NAME.md, NAME_promised.svg")
+        ->capture_default_str();
+    command->add_flag("--brief", options->brief, "accuracy.md without a chart for each case");
     add_text(*command, "--chart-folder", options->chart_folder, "DIR",
              "where accuracy.md expects the charts")
         ->capture_default_str();

@@ -219,12 +219,13 @@ std::vector<float> flare_of(const std::vector<FrameLight>& lights, const Camera&
         const SceneView one{view.lens, scene, view.spectra, view.pattern_of, view.draw};
         const std::array<double, 4> gain = {light.e0[0], light.e0[1], light.e0[2],
                                             light.luminance()};
-        for (const LayerKind kind : {LayerKind::ghosts, LayerKind::veil}) {
-            if (!scene.layers.shows(kind)) continue;
-            const auto image =
-                kind == LayerKind::ghosts ? ghosts_layer(one, request) : veil_layer(one, request);
-            add_image(sum, *image, gain);
+        std::optional<FlareImage> ghosts;
+        if (scene.layers.shows(LayerKind::ghosts)) {
+            ghosts = ghosts_layer(one, request);
+            add_image(sum, *ghosts, gain);
         }
+        if (scene.layers.shows(LayerKind::veil))
+            add_image(sum, *veil_layer(one, request, {}, ghosts ? &*ghosts : nullptr), gain);
     }
     return upright_picture(sum.rgb, width, height, 3);
 }

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -60,16 +59,8 @@ void run(const FitOptions& options) {
     request.left_out = read_option("--use-ghosts", [&] {
         return ghosts_left_out(options.left_out, options.only, loaded.lens);
     });
-    if (!options.profile.empty())
-        for (const FitParameter& each :
-             read_option("--profile", [&] { return parse_vary(options.profile, loaded.lens); })) {
-            const auto at = std::ranges::find_if(request.vary, [&](const FitParameter& p) {
-                return p.kind == each.kind && p.rows == each.rows && p.layer == each.layer;
-            });
-            if (at == request.vary.end())
-                throw bad_value("--profile", options.profile, "numbers that --vary has");
-            request.profiled.push_back(static_cast<std::size_t>(at - request.vary.begin()));
-        }
+    request.profiled = read_option(
+        "--profile", [&] { return profiled_in(options.profile, request.vary, loaded.lens); });
     request.bootstrap = static_cast<int>(
         integer_value("--bootstrap", options.bootstrap, "a whole number from 0 to 1000", 0, 1000));
     FitSetup setup = photo_setup_of(options.photos);
@@ -93,6 +84,8 @@ void run(const FitOptions& options) {
     setup.spectrum = name(request.spectrum);
     setup.left_out = options.left_out;
     setup.only = options.only;
+    setup.profiled = options.profile;
+    setup.bootstrap = request.bootstrap;
     setup.loss = request.loss;
     setup.loss_scale = request.loss_scale;
     setup.seed = request.seed;

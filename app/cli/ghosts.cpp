@@ -9,9 +9,11 @@
 #include "app/cli/html_report.h"
 #include "app/cli/output.h"
 #include "app/cli/report.h"
+#include "core/flare/mask_raster.h"
 #include "core/ghosts/ghost_query.h"
 #include "core/ghosts/ghost_table.h"
 #include "core/io/table_file.h"
+#include "core/units.h"
 
 namespace ghostlight::cli {
 namespace {
@@ -174,6 +176,11 @@ std::string heading_of(const std::vector<GhostState>& states, const GhostTable& 
         fmt::format("{}: {}, field {} deg, azimuth {} deg, sensor {:.6g} x {:.6g} mm",
                     lens_heading(state.loaded), name(state.spectrum), state.light.field_deg,
                     state.light.azimuth_deg, sensor.width_mm, sensor.height_mm);
+    const StopDirt& dirt = state.loaded.lens.stop.dirt;
+    if (!dirt.is_clean())
+        text += fmt::format(
+            "\nwithout the dirt on the stop, which leaves {:.4g} of the light of each crossing",
+            clear_share(compile(state.loaded.lens, d_line_nm).stop_mask, dirt));
     if (first.veiling_fraction >= 0.0)
         text += fmt::format("\nall ghosts on the sensor over the image: {:.4g}",
                             first.veiling_fraction);

@@ -11,6 +11,7 @@
 #include "app/cli/options.h"
 #include "app/cli/output.h"
 #include "core/error.h"
+#include "core/freed_memory.h"
 
 namespace ghostlight::cli {
 namespace {
@@ -104,6 +105,7 @@ int run(std::vector<std::string> arguments) {
 int main(int argc, char** argv) {
     using namespace ghostlight::cli;
     prepare_streams();
+    ghostlight::keep_freed_memory();
     try {
         return run({argv + std::min(argc, 1), argv + argc});
     } catch (const std::exception& error) {

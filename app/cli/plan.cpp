@@ -138,7 +138,7 @@ void run(const PlanOptions& options) {
         measured = measure_plan(loaded.lens, request, image, reference_share * request.tolerance,
                                 {}, [&](double share) { progress(share); });
     }
-    const PlanReport omitted = plan_report(scene, plan, proof ? &*proof : nullptr);
+    const PlanReport omitted = plan_report(scene, request, plan, proof ? &*proof : nullptr);
     report.heading += omissions_text(omitted, measured);
     for (auto& field : omission_fields(omitted, measured)) report.request.push_back(field);
     write_report(report, options.output);

@@ -26,7 +26,11 @@ std::string omissions_text(const PlanReport& plan, const std::optional<MeasuredP
                                                           : "estimated"),
                               each.why});
     text += table_text(table);
-    text += fmt::format("\nAll of these: at most {:.2g} %.", 100.0 * plan.bound());
+    const double light_mm2 = plan.flux_mm2 > 0.0 ? plan.flux_mm2 : 1.0;
+    text += fmt::format(
+        "\nAll of these: {:.2g} % of the light, of which {:.2g} % proven bounds and "
+        "the rest estimates.",
+        100.0 * plan.bound(), 100.0 * plan.proven_mm2 / light_mm2);
     if (measured)
         text += fmt::format(
             " The true error is {:.2g} %, by a reference whose two samplings differ by {:.2g} %.",

@@ -93,6 +93,12 @@ FlareOrigin origin_of(const LoadedLens& loaded, const FlareRequest& request,
 struct SceneLayers {
     std::vector<LayerKind> kinds;
     std::vector<FlareImage> images;
+
+    const FlareImage* find(LayerKind kind) const {
+        const auto found = std::ranges::find(kinds, kind);
+        return found == kinds.end() ? nullptr
+                                    : &images[static_cast<std::size_t>(found - kinds.begin())];
+    }
 };
 
 SceneLayers scene_layers(const Prescription& lens, const Scene& scene,
@@ -113,7 +119,7 @@ SceneLayers scene_layers(const Prescription& lens, const Scene& scene,
                 image = starburst_layer(view, request, render_starburst);
                 break;
             case LayerKind::veil:
-                image = veil_layer(view, request);
+                image = veil_layer(view, request, {}, layers.find(LayerKind::ghosts));
                 break;
             case LayerKind::backdrop:
                 if (scene.backdrop.file.empty())
@@ -151,6 +157,24 @@ std::string rung_ghosts(const SceneLayers& drawn) {
                                         ghost.fresnel_number, ghost.first_fringe_px,
                                         ghost.propagated ? ", whole mask" : ""));
     return texts.empty() ? "none" : joined(texts, "; ");
+}
+
+/// "12 ghosts, at most 0.04 of the light": what folding may change, L1, over all ghosts' light.
+std::string folded_ghosts(const FlarePlan& plan) {
+    const double all_mm2 = plan.flux_mm2 + plan.folded_mm2;
+    return fmt::format("{} ghosts, at most {:.2g} of the light", plan.count(GhostFate::folded),
+                       all_mm2 > 0.0 ? 2.0 * plan.folded_mm2 / all_mm2 : 0.0);
+}
+
+/// The method that drew the ghosts, and why if it is not the one asked for.
+std::string drawn_by(const Prescription& lens, const FlareRequest& request) {
+    const OpticalSystem system = compile(lens, d_line_nm);
+    if (request.method != FlareMethod::planned || can_be_planned(system, request.light))
+        return std::string(method_name(request.method));
+    return fmt::format("{}: {}", method_name(FlareMethod::uniform),
+                       system.stop_mask.picture
+                           ? "the stop has an image"
+                           : "the sensor reflects and the light is not above or below the axis");
 }
 
 void run(const RenderOptions& options) {
@@ -233,16 +257,17 @@ void run(const RenderOptions& options) {
                             "estimated_error",
                             "left_out_share",
                             "not_modelled_share",
-                            "rung"};
+                            "rung",
+                            "folded"};
     report.table.rows = {
         {file, static_cast<std::int64_t>(image.width_px),
          static_cast<std::int64_t>(image.height_px), static_cast<std::int64_t>(image.ghosts),
          static_cast<std::int64_t>(image.rays), image.flux_mm2, image.flux_on_sensor_mm2,
          exposure_ev ? Cell(*exposure_ev) : Cell(), image.times.total_ms,
-         all_names.empty() ? Cell() : Cell(joined(all_names, " ")),
-         std::string(method_name(request.method)), of_plan(&FlarePlan::estimated_error),
-         of_plan(&FlarePlan::left_out_share), of_plan(&FlarePlan::not_modelled),
-         request.ringing ? Cell(rung_ghosts(drawn)) : Cell()}};
+         all_names.empty() ? Cell() : Cell(joined(all_names, " ")), drawn_by(loaded.lens, request),
+         of_plan(&FlarePlan::estimated_error), of_plan(&FlarePlan::left_out_share),
+         of_plan(&FlarePlan::not_modelled), request.ringing ? Cell(rung_ghosts(drawn)) : Cell(),
+         image.folded.empty() ? Cell() : Cell(folded_ghosts(image.plan))}};
     OutputOptions summary = options.output;
     summary.file.clear();
     write_report(report, summary);

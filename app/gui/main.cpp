@@ -5,6 +5,7 @@
 #include <QIcon>
 #include <QLocale>
 #include <QSurfaceFormat>
+#include <QTableView>
 
 #include <algorithm>
 #include <clocale>
@@ -12,16 +13,21 @@
 #include <exception>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/freed_memory.h"
 #include "core/ghosts/ghost_path.h"
 #include "core/optics/optical_system.h"
 #include "core/units.h"
 #include "widgets/main_window.h"
+#include "widgets/models/prescription_model.h"
 #include "widgets/panels/banner.h"
+#include "widgets/panels/prescription_panel.h"
 #include "widgets/settings.h"
 #include "widgets/snapshot.h"
 #include "widgets/theme.h"
+#include "widgets/translation.h"
 
 namespace {
 
@@ -37,9 +43,11 @@ Opens the lens-flare workbench, on a lens file if one is given.
   --theme NAME    dark or light, this time
   --ghost PAIRS   ghosts to select at first, e.g. 5-3 or 5-3,7-2
   --do ACTIONS    what to do at first, one after the other: ids of the menus' entries, e.g.
-                  ghosts.as_matrix,flare.false_color
+                  ghosts.as_matrix,flare.false_color; or SURFACE.COLUMN=TEXT for a cell of the
+                  prescription, e.g. compare.pin,3.coating=none
   --study NAME    a panel to open and begin: fit (as saved with the lens), accuracy or plan
   --engine NAME   what draws flares, this time: automatic, cpu or opengl
+  --language CODE texts in this language, this time: en or de
   --size WxH      size of the window in pixels, e.g. 1366x768
   --help          this text
   --version       the version
@@ -66,6 +74,28 @@ std::optional<QSize> parse_size(const QString& text) {
 
 /// For one action's results before the next, at most.
 constexpr int settling_ms = 300'000;
+
+struct CellEdit {
+    int row, column;
+    QString text;
+};
+
+/// "3.coating=none": what goes into a cell of the prescription, rows from 1.
+std::optional<CellEdit> parse_cell(const QString& item) {
+    using Model = ghostlight::PrescriptionModel;
+    constexpr std::pair<const char*, int> columns[] = {
+        {"radius", Model::radius}, {"thickness", Model::thickness},
+        {"glass", Model::medium},  {"semi-diameter", Model::semi_diameter},
+        {"conic", Model::conic},   {"coating", Model::coating}};
+    const QString where = item.section('=', 0, 0);
+    const int row = where.section('.', 0, 0).toInt();
+    const auto column = std::ranges::find(columns, where.section('.', 1),
+                                          [](const auto& each) { return QString(each.first); });
+    if (row < 1 || !item.contains('=') || column == std::end(columns)) {
+        return std::nullopt;
+    }
+    return CellEdit{row - 1, column->second, item.section('=', 1)};
+}
 
 void set_surface_format() {
     // VTK needs a core context of 3.2 or later; one format for all, since contexts are shared.
@@ -135,6 +165,17 @@ int run(QApplication& application, const QCommandLineParser& options) {
     if (const QString wanted = options.value("do"); !wanted.isEmpty()) {
         const auto known = ghostlight::action_texts();
         for (const QString& id : wanted.split(',')) {
+            if (const auto cell = parse_cell(id)) {
+                ghostlight::wait_until_settled(window, settling_ms);
+                auto& model = *window.prescription_panel().table().model();
+                const QModelIndex index = model.index(cell->row, cell->column);
+                if (!index.isValid() || !model.setData(index, cell->text, Qt::EditRole)) {
+                    return fail(
+                        "--do: found " + id.toStdString() +
+                        ", expected what that cell takes: " + window.banner().text().toStdString());
+                }
+                continue;
+            }
             if (std::ranges::none_of(known, [&](const auto& text) { return id == text.id; })) {
                 return fail("--do: found " + id.toStdString() +
                             ", expected an action such as ghosts.as_matrix or compare.pin");
@@ -171,6 +212,7 @@ int main(int argc, char** argv) {
             return 0;
         }
     }
+    ghostlight::keep_freed_memory();
     // X11, through XWayland where need be: VTK's OpenGL here is GLX.
     if (qEnvironmentVariableIsSet("DISPLAY") && !qEnvironmentVariableIsSet("QT_QPA_PLATFORM")) {
         qputenv("QT_QPA_PLATFORM", "xcb");
@@ -183,6 +225,7 @@ int main(int argc, char** argv) {
     QGuiApplication::setApplicationDisplayName("Ghostlight");
     QGuiApplication::setDesktopFileName("io.github.ghostlight.Ghostlight");
     QGuiApplication::setWindowIcon(QIcon(":/ghostlight/icon.svg"));
+    const QLocale language = QLocale::system();  // of texts; the machine's settings say which
     // Numbers here have a decimal point, in files and on screen; Qt has just asked the machine.
     QLocale::setDefault(QLocale::c());
     std::setlocale(LC_NUMERIC, "C");
@@ -191,6 +234,7 @@ int main(int argc, char** argv) {
     options.addOptions({{"snapshot", "", "DIR"},
                         {"size", "", "WxH"},
                         {"engine", "", "NAME"},
+                        {"language", "", "CODE"},
                         {"every-panel", ""},
                         {"theme", "", "NAME"},
                         {"do", "", "ACTIONS"},
@@ -200,6 +244,16 @@ int main(int argc, char** argv) {
     if (!options.parse(QCoreApplication::arguments())) {
         return fail(options.errorText().toStdString() + " (see --help)");
     }
+    const QString wanted = options.value("language");
+    if (options.isSet("language") && !ghostlight::languages().contains(wanted)) {
+        return fail("--language: found " + wanted.toStdString() + ", expected one of " +
+                    ghostlight::languages().join(", ").toStdString());
+    }
+    // Pictures for the guide are the same on every machine.
+    ghostlight::install_translation(application, options.isSet("language") ? QLocale(wanted)
+                                                 : options.isSet("snapshot")
+                                                     ? QLocale(QLocale::English)
+                                                     : language);
     try {
         return run(application, options);
     } catch (const std::exception& error) {

@@ -69,6 +69,25 @@ std::vector<std::string> ghosts_left_out(const std::string& left_out, const std:
     return names;
 }
 
+std::vector<std::size_t> profiled_in(const std::string& text, const std::vector<FitParameter>& vary,
+                                     const Prescription& lens) {
+    std::vector<std::size_t> numbers;
+    if (text.empty()) return numbers;
+    for (const FitParameter& each : parse_vary(text, lens)) {
+        const auto at = std::ranges::find_if(vary, [&](const FitParameter& p) {
+            return p.kind == each.kind && p.rows == each.rows && p.layer == each.layer;
+        });
+        if (at == vary.end())
+            throw Error({.problem = "a profile is wanted of a number that is not varied",
+                         .file = {},
+                         .where = {},
+                         .found = vary_item(each),
+                         .expected = "numbers among those that are varied"});
+        numbers.push_back(static_cast<std::size_t>(at - vary.begin()));
+    }
+    return numbers;
+}
+
 std::string fit_command(const FitSetup& setup, const std::string& lens) {
     const FitSetup usual;
     auto text_if = [](const auto& value) { return value ? text_of(*value) : std::string(); };
@@ -93,6 +112,8 @@ std::string fit_command(const FitSetup& setup, const std::string& lens) {
     text += fmt::format(" --vary {} --spectrum \"{}\"", setup.vary, setup.spectrum);
     if (!setup.left_out.empty()) text += " --leave-out " + setup.left_out;
     if (!setup.only.empty()) text += " --use-ghosts " + setup.only;
+    if (!setup.profiled.empty()) text += " --profile " + setup.profiled;
+    if (setup.bootstrap > 0) text += fmt::format(" --bootstrap {}", setup.bootstrap);
     if (setup.loss != usual.loss) text += " --loss " + name(setup.loss);
     if (setup.loss_scale != usual.loss_scale)
         text += fmt::format(" --loss-scale {}", setup.loss_scale);
@@ -108,6 +129,8 @@ FitRequest fit_request(const FitSetup& setup, const Prescription& lens) {
     request.across = setup.across;
     request.starts = setup.starts;
     request.left_out = ghosts_left_out(setup.left_out, setup.only, lens);
+    request.profiled = profiled_in(setup.profiled, request.vary, lens);
+    request.bootstrap = setup.bootstrap;
     request.suggestions = static_cast<std::size_t>(setup.suggestions);
     request.seed = setup.seed;
     return request;

@@ -23,6 +23,8 @@ struct FitSetup {
     int across = 96;
     int starts = 6;
     int suggestions = 0;
+    std::string profiled;  ///< of `vary`, those whose profile likelihood is wanted
+    int bootstrap = 0;     ///< photographs drawn from the fitted model; 0: none
     std::uint64_t seed = 1;
     bool operator==(const FitSetup&) const = default;
 };
@@ -34,6 +36,10 @@ FitLoss parse_loss(std::string_view text);
 /// not empty, all that are not in it. Throws Error for a ghost that the lens has not.
 std::vector<std::string> ghosts_left_out(const std::string& left_out, const std::string& only,
                                          const Prescription& lens);
+
+/// Which of `vary` a list of the same words names. Throws Error for one that it has not.
+std::vector<std::size_t> profiled_in(const std::string& text, const std::vector<FitParameter>& vary,
+                                     const Prescription& lens);
 
 /// What `ghostlight-cli` makes the same fit by.
 std::string fit_command(const FitSetup& setup, const std::string& lens);

@@ -6,6 +6,8 @@
 
 #include "core/elapsed.h"
 #include "core/flare/accuracy_trials.h"
+#include "core/flare/flip.h"
+#include "core/flare/plan_report.h"
 #include "core/flare/reference_image.h"
 #include "core/ghosts/ghost_table.h"
 
@@ -21,8 +23,14 @@ double percentile(std::vector<double> values, double share) {
     return values[static_cast<std::size_t>(std::ceil(share * last))];
 }
 
+PictureErrors errors_of(const FlareImage& image, const FlareImage& truth) {
+    PictureErrors errors = picture_errors(image.irradiance, truth.irradiance);
+    errors.flip = hdr_flip(image.rgb, truth.rgb, truth.width_px);
+    return errors;
+}
+
 /// One cold frame, then as many as fit into `allowed_ms`, three at least if the first took less.
-std::optional<AccuracyPoint> timed(const AccuracyTrial& trial, const std::vector<float>& truth,
+std::optional<AccuracyPoint> timed(const AccuracyTrial& trial, const FlareImage& truth,
                                    int most_repeats, double allowed_ms) {
     AccuracyPoint point;
     point.method = trial.method;
@@ -31,11 +39,10 @@ std::optional<AccuracyPoint> timed(const AccuracyTrial& trial, const std::vector
     point.is_ablation = trial.is_ablation;
     const auto began = Clock::now();
     const auto frame = trial.prepare();
-    auto image = frame();
+    const auto image = frame();
     if (!image) return std::nullopt;
     point.cold_ms = ms_since(began);
     point.rays = image->rays;
-    point.errors = picture_errors(image->irradiance, truth);
     std::vector<double> times;
     while (static_cast<int>(times.size()) < most_repeats) {
         const double spent = ms_since(began);
@@ -48,6 +55,8 @@ std::optional<AccuracyPoint> timed(const AccuracyTrial& trial, const std::vector
     point.repeats = static_cast<int>(times.size());
     point.median_ms = percentile(times, 0.5);
     point.p95_ms = percentile(times, 0.95);
+    point.errors = errors_of(*image, truth);
+    if (!image->plan.ghosts.empty()) point.plan_bound = bounded_error(image->plan);
     return point;
 }
 
@@ -63,7 +72,7 @@ ReferenceRequest reference_request(const AccuracyRequest& request) {
 
 /// The simplified physics, drawn as finely as the reference.
 std::optional<AccuracyPoint> shortcut(const Prescription& lens, ReferenceRequest request,
-                                      const char* name, const std::vector<float>& truth,
+                                      const char* name, const FlareImage& truth,
                                       const std::stop_token& stop) {
     const auto image = render_reference(lens, request, stop);
     if (!image) return std::nullopt;
@@ -73,7 +82,7 @@ std::optional<AccuracyPoint> shortcut(const Prescription& lens, ReferenceRequest
     point.cold_ms = point.median_ms = point.p95_ms = image->image.times.total_ms;
     point.repeats = 1;
     point.rays = image->image.rays;
-    point.errors = picture_errors(image->image.irradiance, truth);
+    point.errors = errors_of(image->image, truth);
     point.is_shortcut = true;
     return point;
 }
@@ -219,7 +228,7 @@ std::optional<AccuracyReport> measure_accuracy(
             // A finer setting takes longer than the one before.
             if (last_ms > left_ms) continue;
             const auto began = Clock::now();
-            auto point = timed(trial, truth->image.irradiance, request.most_repeats, allowed_ms);
+            auto point = timed(trial, truth->image, request.most_repeats, allowed_ms);
             if (!point) return std::nullopt;
             last_ms = point->cold_ms;
             left_ms -= ms_since(began);
@@ -244,7 +253,7 @@ std::optional<AccuracyReport> measure_accuracy(
             for (const ReferenceGhost& ghost : truth->ghosts) simpler.levels.push_back(ghost.level);
             simpler.weights = weights;
             simpler.precision = precision;
-            auto point = shortcut(lens, simpler, name, truth->image.irradiance, stop);
+            auto point = shortcut(lens, simpler, name, truth->image, stop);
             if (!point) return std::nullopt;
             report.points.push_back(std::move(*point));
         }

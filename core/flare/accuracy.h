@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -47,6 +48,8 @@ struct AccuracyPoint {
     int repeats = 0;
     std::size_t rays = 0;
     PictureErrors errors;
+    /// What the plan itself accounts for (bounded_error() in plan_report.h); NaN without a plan.
+    double plan_bound = std::numeric_limits<double>::quiet_NaN();
     /// False where the error is less than three times the reference's own.
     bool resolved = true;
     /// Nothing measured is both faster and closer.

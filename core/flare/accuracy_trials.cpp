@@ -74,6 +74,7 @@ class Trials {
             without("planned, nothing left out", &PlanEconomies::leaving_out);
             without("planned, light traced everywhere", &PlanEconomies::probed_light);
             without("planned, edges not split", &PlanEconomies::split_edges);
+            without("planned, both halves traced", &PlanEconomies::half_beams);
             if (!gray) without("planned, colours apart", &PlanEconomies::merged_colors);
         }
         if (!gray) {
@@ -160,6 +161,8 @@ class Trials {
                         if (!veil) return std::nullopt;
                         for (std::size_t i = 0; i < veil->irradiance.size(); ++i)
                             ghosts->irradiance[i] += veil->irradiance[i];
+                        for (std::size_t i = 0; i < veil->rgb.size(); ++i)
+                            ghosts->rgb[i] += veil->rgb[i];
                         return ghosts;
                     });
                 }};

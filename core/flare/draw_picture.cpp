@@ -117,6 +117,12 @@ bool LevelPictures<C>::add(const std::vector<DrawnGhost<C>>& ghosts, unsigned th
 }
 
 template <int C>
+std::vector<float>& LevelPictures<C>::level(int level) {
+    coarsest_ = std::max(coarsest_, level);
+    return levels_[static_cast<std::size_t>(level)];
+}
+
+template <int C>
 std::optional<std::vector<float>> LevelPictures<C>::take(unsigned threads,
                                                          const std::stop_token& stop,
                                                          FlareTimes& times) {

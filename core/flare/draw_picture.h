@@ -29,6 +29,8 @@ class LevelPictures {
     /// False when stopped. Adds to the time of the raster.
     bool add(const std::vector<DrawnGhost<C>>& ghosts, unsigned threads,
              const std::stop_token& stop, FlareTimes& times);
+    /// A level to add to, C values a pixel of level_size().
+    std::vector<float>& level(int level);
     /// Brings the levels together, C values a pixel; the levels are used up. Nothing when stopped.
     std::optional<std::vector<float>> take(unsigned threads, const std::stop_token& stop,
                                            FlareTimes& times);

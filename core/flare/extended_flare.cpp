@@ -10,6 +10,7 @@
 #include "core/flare/picture_levels.h"
 #include "core/flare/planned_ghost.h"
 #include "core/flare/probe_all.h"
+#include "core/flare/ringing.h"
 #include "core/flare/spread_mesh.h"
 #include "core/parallel.h"
 #include "core/units.h"
@@ -159,9 +160,12 @@ bool draw_patch(const FlareScene& scene, const FlareRequest& request, const Patt
     const GhostPlanner planner(scene, one.light, levels.frame, one.search);
     auto probed = probe_all(scene, planner, one, stop);
     if (!probed) return false;
+    double layer_flux_mm2 = 0.0;
+    for (const ProbedGhost& ghost : *probed) layer_flux_mm2 += ghost.planned.flux_mm2;
     constexpr std::size_t at_once = 16;
     for (std::size_t first = 0; first < parts.size(); first += at_once) {
         std::vector<Spot> spots(std::min(at_once, parts.size() - first));
+        std::vector<RungGhost> rung(spots.size());
         const bool finished = parallel_for(spots.size(), request.threads, stop, [&](std::size_t n) {
             ProbedGhost& ghost = (*probed)[first + n];
             if (ghost.planned.fate != GhostFate::drawn) return;
@@ -176,9 +180,14 @@ bool draw_patch(const FlareScene& scene, const FlareRequest& request, const Patt
             std::array<double, 4> gain = part.look.gain;
             for (double& each : gain) each *= patch.share;
             ghost.planned.level = level;
-            spots[n] =
-                draw_spot(mesh, levels.frame, level, part.look.offset_x_mm / levels.frame.pitch_mm,
-                          part.look.offset_y_mm / levels.frame.pitch_mm, gain, kernel);
+            RungMesh fringes;
+            if (one.ringing)
+                fringes =
+                    ringing_of(scene, one, planner, ghost, layer_flux_mm2, probed->size(), stop);
+            if (!fringes.empty()) rung[n] = fringes.report;
+            spots[n] = draw_spot(mesh, fringes, levels.frame, level,
+                                 part.look.offset_x_mm / levels.frame.pitch_mm,
+                                 part.look.offset_y_mm / levels.frame.pitch_mm, gain, kernel);
         });
         if (!finished) return false;
         for (std::size_t n = 0; n < spots.size(); ++n) {
@@ -186,6 +195,10 @@ bool draw_patch(const FlareScene& scene, const FlareRequest& request, const Patt
             if (highlight && std::ranges::find(request.highlighted, parts[first + n]->path) !=
                                  request.highlighted.end())
                 highlight->add(spots[n]);
+            const RungGhost& own = rung[n];
+            if (own.fresnel_number > 0.0 &&
+                std::ranges::find(image.ringing, own.path, &RungGhost::path) == image.ringing.end())
+                image.ringing.push_back(own);
         }
     }
     for (std::size_t g = 0; g < parts.size(); ++g) {
@@ -244,8 +257,7 @@ std::optional<std::vector<GhostSpot>> ghost_spots(const FlareScene& scene,
     std::vector<GhostSpot> moments(paths.size());
     if (!parallel_for(paths.size(), request.threads, std::move(stop), [&](std::size_t g) {
             const ProbedGhost probed = planner.probe(paths[g]);
-            if (probed.planned.fate != GhostFate::nothing_passes)
-                moments[g] = spot_of(planner.landed(probed), frame);
+            if (probed.planned.fate != GhostFate::nothing_passes) moments[g] = planner.spot(probed);
         }))
         return std::nullopt;
     return moments;
@@ -378,6 +390,10 @@ void add_image(FlareImage& image, const FlareImage& other, const std::array<doub
         image.highlight.resize(other.highlight.size(), 0.0F);
     for (std::size_t i = 0; i < other.highlight.size(); ++i)
         image.highlight[i] += level * other.highlight[i];
+    for (GhostSpot spot : other.folded) {
+        for (std::size_t c = 0; c < 4; ++c) spot.flux_mm2[c] *= gain[c];
+        image.folded.push_back(spot);
+    }
     image.flux_mm2 += gain[3] * other.flux_mm2;
     image.flux_on_sensor_mm2 += gain[3] * other.flux_on_sensor_mm2;
     image.rays += other.rays;

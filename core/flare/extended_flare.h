@@ -6,8 +6,8 @@
 
 #include "core/flare/artistic.h"
 #include "core/flare/flare_image.h"
+#include "core/flare/flare_plan.h"
 #include "core/flare/flare_scene.h"
-#include "core/flare/ghost_spot.h"
 #include "core/flare/light_pattern.h"
 #include "core/flare/spread_mesh.h"
 

@@ -1,6 +1,7 @@
 #include "core/flare/film_tables.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "core/flare/film_tables_kernel.h"
@@ -17,14 +18,27 @@ constexpr std::size_t tables_per_surface = 4;  ///< from either side, reflected 
 
 void curve(const FilmCurveView& view) { GHOSTLIGHT_DISPATCH(film_curve, view); }
 
+/// Cosines where n sin θ is what it is at `cosines` in an index of `main_n`.
+std::vector<float> cosines_in(double n, double main_n, const std::vector<float>& cosines) {
+    if (n == main_n) return cosines;
+    std::vector<float> own;
+    for (const float cosine : cosines) {
+        const auto c = static_cast<double>(cosine);
+        const double square = 1.0 - (main_n / n) * (main_n / n) * (1.0 - c * c);
+        own.push_back(static_cast<float>(std::sqrt(std::max(square, 0.0))));
+    }
+    return own;
+}
+
 }  // namespace
 
 FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threads,
-                       CoatingModel model)
+                       CoatingModel model, const OpticalSystem* main)
     : stride_((systems.size() + film_padding - 1) / film_padding * film_padding),
       surfaces_(turning_count(systems.front())) {
     const std::size_t table_size = static_cast<std::size_t>(nodes) * stride_;
     values_.assign(surfaces_ * tables_per_surface * table_size, 0.0F);
+    s_shares_.assign(values_.size(), 1.0F);
     most_.assign(surfaces_ * 2 * static_cast<std::size_t>(nodes), 0.0F);
     keep_absorption(systems);
     invisible_.assign(surfaces_, true);
@@ -41,6 +55,7 @@ FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threa
         const bool forward = task % 2 == 0;
         if (invisible_[surface]) return;
         std::vector<float> r(padded_nodes), t(padded_nodes), most(padded_nodes);
+        std::vector<float> s_reflected(padded_nodes), s_passed(padded_nodes);
         float* most_here = &most_[task * static_cast<std::size_t>(nodes)];
         std::vector<LayerAt<float>> layers;
         for (std::size_t w = 0; w < systems.size(); ++w) {
@@ -54,6 +69,12 @@ FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threa
                                   static_cast<float>(2.0 * std::numbers::pi / film.wavelength_nm *
                                                      layer.thickness_nm)});
             const std::vector<AngleAt<float>> angles = angles_at<float>(film);
+            double main_n = film.n_in;
+            if (main != nullptr) {
+                const Film& traced = surface_at(*main, surface).film;
+                main_n = forward ? traced.n_in : traced.n_out;
+            }
+            const std::vector<float> own_cosines = cosines_in(film.n_in, main_n, cosines);
             curve({.n_in = static_cast<float>(film.n_in),
                    .n_out = static_cast<float>(film.n_out),
                    .layers = layers.data(),
@@ -62,17 +83,19 @@ FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threa
                    .angles = angles.empty() ? nullptr : angles.data(),
                    .angle_count = static_cast<int>(angles.size()),
                    .count = padded_nodes,
-                   .cosines = cosines.data(),
+                   .cosines = own_cosines.data(),
                    .reflectance = r.data(),
                    .transmittance = t.data(),
+                   .s_reflected = s_reflected.data(),
+                   .s_passed = s_passed.data(),
                    .most_reflected = most.data()});
             if (model == CoatingModel::hullin_2011) {
                 std::ranges::fill(t, 1.0F);
                 for (std::size_t i = 0; i < padded_nodes && film.layers.size() == 1; ++i)
-                    r[i] = static_cast<float>(
-                        hullin_2011_reflectance(static_cast<double>(cosines[i]), film.wavelength_nm,
-                                                film.layers.front().thickness_nm, film.n_in,
-                                                film.layers.front().n, film.n_out));
+                    r[i] = static_cast<float>(hullin_2011_reflectance(
+                        static_cast<double>(own_cosines[i]), film.wavelength_nm,
+                        film.layers.front().thickness_nm, film.n_in, film.layers.front().n,
+                        film.n_out));
                 // Its mean of s and p is all it gives; the larger is at most twice that.
                 std::ranges::transform(r, most.begin(), [](float mean) { return 2.0F * mean; });
             }
@@ -80,11 +103,15 @@ FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threa
                 std::ranges::fill(r, static_cast<float>(*at.uniform_reflectance));
                 std::ranges::fill(t, static_cast<float>(1.0 - *at.uniform_reflectance));
                 most = r;
+                std::ranges::fill(s_reflected, 1.0F);
+                std::ranges::fill(s_passed, 1.0F);
             }
             for (const bool reflects : {false, true}) {
-                float* to = values_.data() + (table(surface, forward, reflects) - values_.data());
-                for (std::size_t i = 0; i < static_cast<std::size_t>(nodes); ++i)
-                    to[i * stride_ + w] = reflects ? r[i] : t[i];
+                const std::size_t first = table(surface, forward, reflects) + w;
+                for (std::size_t i = 0; i < static_cast<std::size_t>(nodes); ++i) {
+                    values_[first + i * stride_] = reflects ? r[i] : t[i];
+                    s_shares_[first + i * stride_] = reflects ? s_reflected[i] : s_passed[i];
+                }
             }
             for (std::size_t i = 0; i < static_cast<std::size_t>(nodes); ++i)
                 most_here[i] = std::max(most_here[i], most[i]);
@@ -129,10 +156,23 @@ void FilmTables::absorb(const TracePath<float>& path, const Bundle<float>& rays,
     }
 }
 
-const float* FilmTables::table(std::size_t surface, bool forward, bool reflects) const {
+std::size_t FilmTables::table(std::size_t surface, bool forward, bool reflects) const {
     const std::size_t which =
         surface * tables_per_surface + (forward ? 0U : 2U) + (reflects ? 1U : 0U);
-    return values_.data() + which * static_cast<std::size_t>(nodes) * stride_;
+    return which * static_cast<std::size_t>(nodes) * stride_;
+}
+
+std::vector<const float*> FilmTables::tables_of(const TracePath<float>& path,
+                                                const std::vector<float>& values) const {
+    std::vector<const float*> tables;
+    tables.reserve(path.steps.size());
+    for (const TraceStep<float>& step : path.steps) {
+        const auto surface = static_cast<std::size_t>(step.surface);
+        tables.push_back(invisible_[surface]
+                             ? nullptr
+                             : values.data() + table(surface, step.sense > 0.0F, step.reflects));
+    }
+    return tables;
 }
 
 double FilmTables::most_reflected(std::size_t surface, bool forward, double least_cosine) const {
@@ -143,13 +183,7 @@ double FilmTables::most_reflected(std::size_t surface, bool forward, double leas
 
 void FilmTables::weights(const TracePath<float>& path, const Bundle<float>& rays,
                          std::vector<float>& weights) const {
-    std::vector<const float*> tables;
-    tables.reserve(path.steps.size());
-    for (const TraceStep<float>& step : path.steps) {
-        const auto surface = static_cast<std::size_t>(step.surface);
-        tables.push_back(invisible_[surface] ? nullptr
-                                             : table(surface, step.sense > 0.0F, step.reflects));
-    }
+    const std::vector<const float*> tables = tables_of(path, values_);
     weights.resize(rays.size() * stride_);
     const SpectralWeightsView view{.cosines = rays.cosines.data(),
                                    .stride = rays.cosine_stride,
@@ -162,6 +196,21 @@ void FilmTables::weights(const TracePath<float>& path, const Bundle<float>& rays
     GHOSTLIGHT_DISPATCH(spectral_weights, view);
     if (path.absorbs && !absorption_per_mm_.empty() && !rays.lengths_mm.empty())
         absorb(path, rays, weights);
+}
+
+void FilmTables::polarisation(const TracePath<float>& path, const Bundle<float>& rays,
+                              std::vector<float>& factors) const {
+    const std::vector<const float*> tables = tables_of(path, s_shares_);
+    factors.resize(rays.size() * stride_);
+    const SpectralWeightsView view{.cosines = rays.cosines.data(),
+                                   .stride = rays.cosine_stride,
+                                   .step_count = path.steps.size(),
+                                   .count = rays.size(),
+                                   .tables = tables.data(),
+                                   .nodes = nodes,
+                                   .wavelengths = stride_,
+                                   .weights = factors.data()};
+    GHOSTLIGHT_DISPATCH(spectral_states, view);
 }
 
 }  // namespace ghostlight

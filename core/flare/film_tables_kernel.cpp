@@ -22,9 +22,41 @@ namespace ghostlight::GHOSTLIGHT_JOIN(kernels_, GHOSTLIGHT_ISA) {
             V most = r_s;
             stdx::where(r_p > r_s, most) = r_p;
             const V t = 0.5F * (norm(film.t_s) + norm(film.t_p));
+            const V t_s = norm(film.t_s);
+            V s_reflected(1.0F), s_passed(1.0F);
+            stdx::where(r > 0.0F, s_reflected) = r_s / r;
+            stdx::where(t > 0.0F, s_passed) = t_s / t;
+            s_reflected.copy_to(c.s_reflected + i, stdx::element_aligned);
+            s_passed.copy_to(c.s_passed + i, stdx::element_aligned);
             r.copy_to(c.reflectance + i, stdx::element_aligned);
             t.copy_to(c.transmittance + i, stdx::element_aligned);
             most.copy_to(c.most_reflected + i, stdx::element_aligned);
+        }
+    }
+
+    void spectral_states(const SpectralWeightsView& w) {
+        constexpr std::size_t lanes = V::size();
+        const float last = static_cast<float>(w.nodes - 1);
+        for (std::size_t ray = 0; ray < w.count; ++ray) {
+            float* out = w.weights + ray * w.wavelengths;
+            for (std::size_t k = 0; k < w.wavelengths; k += lanes) {
+                V s(1.0F), p(1.0F);
+                for (std::size_t step = 0; step < w.step_count; ++step) {
+                    const float* table = w.tables[step];
+                    if (table == nullptr) continue;
+                    const float at = w.cosines[step * w.stride + ray] * last;
+                    const int node =
+                        at >= 0.0F ? (at < last ? static_cast<int>(at) : w.nodes - 2) : 0;
+                    const V share(at >= 0.0F ? at - static_cast<float>(node) : 0.0F);
+                    const float* low = table + static_cast<std::size_t>(node) * w.wavelengths;
+                    const V a(low + k, stdx::element_aligned);
+                    const V b(low + w.wavelengths + k, stdx::element_aligned);
+                    const V of_s = a + share * (b - a);
+                    s *= of_s;
+                    p *= 2.0F - of_s;
+                }
+                V(0.5F * (s + p)).copy_to(out + k, stdx::element_aligned);
+            }
         }
     }
 

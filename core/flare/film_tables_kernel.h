@@ -18,6 +18,7 @@ struct FilmCurveView {
     std::size_t count;  ///< of cosines; a multiple of `film_padding`
     const float* cosines;
     float *reflectance, *transmittance;  ///< means of s and p
+    float *s_reflected, *s_passed;       ///< that of s over the mean; 1 where there is no light
     float* most_reflected;               ///< the larger of s and p
 };
 
@@ -38,6 +39,7 @@ inline constexpr std::size_t film_padding = 16;
     namespace set {                                    \
     void film_curve(const FilmCurveView&);             \
     void spectral_weights(const SpectralWeightsView&); \
+    void spectral_states(const SpectralWeightsView&);  \
     }
 GHOSTLIGHT_EVERY_SET(GHOSTLIGHT_FILM_KERNELS)
 #undef GHOSTLIGHT_FILM_KERNELS

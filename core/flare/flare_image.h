@@ -31,6 +31,7 @@ struct PlanEconomies {
     bool probed_light = true;   ///< light is interpolated between few rays where it is smooth
     bool split_edges = true;    ///< cells beside failing rays get grids of their own
     bool merged_colors = true;  ///< wavelengths that land together are drawn as one
+    bool half_beams = true;     ///< of each beam one half is traced: the other mirrors it
     bool operator==(const PlanEconomies&) const = default;
 };
 
@@ -50,6 +51,9 @@ struct FlareRequest {
     std::shared_ptr<const FlarePlan> nearby;
     int turn = 0;
     PlanEconomies economies;
+    /// planned: ghosts of the least irradiance are not drawn but folded (fold_ghosts.h), up to this
+    /// share of the light of all.
+    double folded_share = 0.0;
     int width_px = 1280;  ///< the height follows from the sensor's shape
     CoatingModel coating_model = CoatingModel::exact;  ///< planned and paraxial
     double bend_px = 0.2;      ///< each ghost's grid is as fine as keeps its map bilinear to this
@@ -92,7 +96,8 @@ struct FlareImage {
     std::size_t ghosts = 0, rays = 0, cells = 0;
     FlareTimes times;
     std::vector<RungGhost> ringing;
-    FlarePlan plan;  ///< of the methods `planned` and `reference`; else empty
+    std::vector<GhostSpot> folded;  ///< ghosts that are not in it: what the veil has of them
+    FlarePlan plan;                 ///< of the methods `planned` and `reference`; else empty
 };
 
 /// Traces every two-reflection ghost in uniform bundles and accumulates them with exact pixel

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -17,10 +18,16 @@ enum class GhostFate {
     folded           ///< not drawn by itself: its light is spread over the veil by its moments
 };
 
-/// Where a ghost's light lands on the sensor plane, and how far it spreads.
-struct GhostMoments {
+/// A ghost's light on the sensor plane, on the sensor or beside it: where it lands, how far it
+/// spreads, its flux and colour.
+struct GhostSpot {
     double x_mm = 0.0, y_mm = 0.0;                    ///< centroid
     double xx_mm2 = 0.0, yy_mm2 = 0.0, xy_mm2 = 0.0;  ///< second moments about it
+    std::array<double, 4> flux_mm2{};                 ///< over E0: linear Rec.709, irradiance
+
+    double flux() const { return flux_mm2[3]; }
+    /// Standard deviations along the principal axes, the smaller first, mm.
+    std::array<double, 2> sigmas_mm() const;
 };
 
 /// How one ghost of a picture is drawn, and what that costs. Fluxes are over E0, mm².
@@ -33,10 +40,10 @@ struct PlannedGhost {
     int bands = 1;          ///< of the spectrum, each with a geometry of its own
     double flux_mm2 = 0.0;  ///< on the sensor, from the probe
     double whole_flux_mm2 = 0.0;  ///< on the whole plane, from the probe
-    GhostMoments moments;         ///< of all that light, from the probe
-    double allowance_mm2 = 0.0;   ///< error that the plan grants
-    double error_mm2 = 0.0;       ///< estimated L1 error of its picture
-    double bound_mm2 = 0.0;       ///< of the light through its box: what leaving it out may cost
+    GhostSpot spot;              ///< all that light, from the probe; its colours where it is folded
+    double allowance_mm2 = 0.0;  ///< error that the plan grants
+    double error_mm2 = 0.0;      ///< estimated L1 error of its picture
+    double bound_mm2 = 0.0;      ///< of the light through its box: what leaving it out may cost
     std::size_t rays = 0;
 };
 
@@ -45,6 +52,7 @@ struct FlarePlan {
     double tolerance = 0.0;  ///< asked: relative L1 error of the ghost layer on the sensor
     std::vector<PlannedGhost> ghosts;
     double flux_mm2 = 0.0;      ///< of the ghost layer on the sensor
+    double folded_mm2 = 0.0;    ///< on the sensor, of ghosts that the veil has instead
     double error_mm2 = 0.0;     ///< estimated, of all that is drawn
     double left_out_mm2 = 0.0;  ///< sum of the bounds of what is left out
     /// Light of four reflections, which no plan draws: an estimate (plane surfaces at normal

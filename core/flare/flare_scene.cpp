@@ -1,16 +1,21 @@
 #include "core/flare/flare_scene.h"
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/flare/color_raster.h"
+#include "core/flare/colored_samples.h"
 #include "core/flare/grid_light.h"
+#include "core/flare/propagated_masks.h"
 
 namespace ghostlight {
 namespace {
 
 constexpr double shortest_nm = 400.0, longest_nm = 700.0;
-constexpr int geometry_nodes = 3;
+/// Of half the range in 1/λ², from its middle: Chebyshev's outer two of three nodes.
+constexpr double outer_node = 0.8660254037844386;
+/// The same, for how far the light's mean may take the third.
+constexpr double most_inner = 0.5;
 
 double inverse_square(double nm) { return 1.0 / (nm * nm); }
 
@@ -26,12 +31,15 @@ std::vector<OpticalSystem> compiled(const Prescription& lens,
 std::vector<double> geometry_wavelengths_nm(const std::vector<SpectralSample>& samples) {
     if (samples.size() == 1) return {samples.front().wavelength_nm};
     const double low = inverse_square(longest_nm), high = inverse_square(shortest_nm);
-    std::vector<double> wavelengths;
-    for (int k = 0; k < geometry_nodes; ++k) {
-        const double at = std::cos(std::numbers::pi * (2 * k + 1) / (2.0 * geometry_nodes));
-        wavelengths.push_back(1.0 / std::sqrt(0.5 * (low + high) + 0.5 * (high - low) * at));
-    }
-    return wavelengths;
+    const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
+    double mean = 0.0;
+    for (const SpectralSample& s : samples) mean += s.weight * inverse_square(s.wavelength_nm);
+    mean = std::clamp(mean, middle - most_inner * half, middle + most_inner * half);
+    const double inner_nm = std::ranges::min_element(samples, {}, [&](const SpectralSample& s) {
+                                return std::abs(inverse_square(s.wavelength_nm) - mean);
+                            })->wavelength_nm;
+    return {1.0 / std::sqrt(middle + half * outer_node), inner_nm,
+            1.0 / std::sqrt(middle - half * outer_node)};
 }
 
 std::vector<double> node_shares(const std::vector<OpticalSystem>& geometry, double wavelength_nm) {
@@ -52,7 +60,7 @@ std::vector<double> FlareScene::interpolation(double wavelength_nm) const {
 
 FlareScene flare_scene(const Prescription& lens, const Spectrum& spectrum, int spectral_samples,
                        unsigned threads, CoatingModel model) {
-    const auto samples = sample(spectrum, spectral_samples);
+    const auto [samples, colors] = colored_samples(spectrum, spectral_samples);
     std::vector<double> weight_nm;
     for (const SpectralSample& s : samples) weight_nm.push_back(s.wavelength_nm);
     const std::optional<double> line = line_nm(spectrum);
@@ -60,15 +68,17 @@ FlareScene flare_scene(const Prescription& lens, const Spectrum& spectrum, int s
         compiled(lens, line ? std::vector<double>{*line} : geometry_wavelengths_nm(samples));
     const std::size_t main = geometry.size() / 2;
     std::vector<GhostPath> ghosts = two_reflection_ghosts(geometry[main]);
+    FilmTables films(compiled(lens, weight_nm), threads, model, &geometry[main]);
     return {.spectrum = spectrum,
             .samples = samples,
-            .colors = sample_colors(spectrum, samples),
+            .colors = colors,
             .geometry = std::move(geometry),
             .main = main,
             .coating_model = model,
-            .films = FilmTables(compiled(lens, weight_nm), threads, model),
+            .films = std::move(films),
             .ghosts = std::move(ghosts),
-            .dirt = lens.stop.dirt};
+            .dirt = lens.stop.dirt,
+            .propagated_masks = std::make_shared<PropagatedMasks>()};
 }
 
 template <int C>

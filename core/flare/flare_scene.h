@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "core/flare/film_tables.h"
@@ -11,6 +12,8 @@
 
 namespace ghostlight {
 
+class PropagatedMasks;
+
 /// A lens and the spectrum of its light, compiled for pictures: what does not change while the
 /// light moves.
 struct FlareScene {
@@ -20,15 +23,16 @@ struct FlareScene {
     Spectrum spectrum;
     std::vector<SpectralSample> samples;  ///< where weights are evaluated
     std::vector<Rgb> colors;              ///< of the samples
-    /// Where the geometry is traced: one wavelength, or three Chebyshev nodes in 1/λ² between
-    /// which positions are interpolated. `main` of them stands for all where colour does not
-    /// matter.
+    /// Where the geometry is traced: one wavelength, or three nodes in 1/λ² between which positions
+    /// are interpolated. `main` of them, the sample at the mean of the light, stands for all where
+    /// colour does not matter.
     std::vector<OpticalSystem> geometry;
     std::size_t main = 0;
     CoatingModel coating_model = CoatingModel::exact;
     FilmTables films;
     std::vector<GhostPath> ghosts;
     StopDirt dirt;
+    std::shared_ptr<PropagatedMasks> propagated_masks;  ///< never null
 
     bool is_gray() const { return samples.size() == 1; }
     const OpticalSystem& system() const { return geometry[main]; }
@@ -36,7 +40,8 @@ struct FlareScene {
     std::vector<double> interpolation(double wavelength_nm) const;
 };
 
-/// Where a spectrum's geometry is traced: its one wavelength, or three Chebyshev nodes in 1/λ².
+/// Where a spectrum's geometry is traced: its one wavelength, or three in 1/λ², the outer ones
+/// Chebyshev's, the middle one the sample next to the mean of the light.
 std::vector<double> geometry_wavelengths_nm(const std::vector<SpectralSample>& samples);
 
 /// Shares of the positions at the wavelengths of `geometry` in the one at another wavelength.

@@ -13,6 +13,12 @@ namespace {
 
 constexpr int lines_together = 16;  ///< a cache line of columns, and one set of twiddles
 
+/// Padded fields are dark in most of their lines.
+bool is_empty(const std::complex<float>* line, std::size_t count) {
+    return std::all_of(line, line + count,
+                       [](const std::complex<float>& value) { return value == 0.0F; });
+}
+
 }  // namespace
 
 bool transform_2d(std::vector<std::complex<float>>& field, int across, bool inverse,
@@ -33,6 +39,7 @@ bool transform_2d(std::vector<std::complex<float>>& field, int across, bool inve
                     lines[l * n + k] = field[(first + l) * line_step + k * step];
             for (std::size_t l = 0; l < count; ++l) {
                 Complex* line = lines.data() + l * n;
+                if (is_empty(line, n)) continue;
                 if (inverse)
                     fft.inv(out.data(), line, static_cast<Eigen::Index>(n));
                 else

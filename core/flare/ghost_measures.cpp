@@ -196,35 +196,4 @@ FrameLight light_on_frame(const MeshNodes& nodes, const PixelFrame& frame) {
     return light;
 }
 
-GhostMoments moments_of(const MeshNodes& nodes, const PixelFrame& frame) {
-    // About the frame's middle, in pixels, for accuracy; a cell counts by its corners that pass.
-    const double column = 0.5 * frame.width_px, row = 0.5 * frame.height_px;
-    double sum = 0.0, x = 0.0, y = 0.0, xx = 0.0, yy = 0.0, xy = 0.0;
-    const int side = nodes.cells + 1;
-    for (int j = 0; j < side; ++j)
-        for (int i = 0; i < side; ++i) {
-            const std::size_t k = idx(j * side + i);
-            if (!is_within(nodes, k, 0.0)) continue;
-            // Nodes on the grid's edge stand for half a cell, at its corners for a quarter.
-            const double share =
-                (i == 0 || i == nodes.cells ? 0.5 : 1.0) * (j == 0 || j == nodes.cells ? 0.5 : 1.0);
-            const double w = share * static_cast<double>(nodes.weights[k]);
-            const double dx = static_cast<double>(nodes.column[k]) - column;
-            const double dy = static_cast<double>(nodes.row[k]) - row;
-            sum += w;
-            x += w * dx;
-            y += w * dy;
-            xx += w * dx * dx;
-            yy += w * dy * dy;
-            xy += w * dx * dy;
-        }
-    if (!(sum > 0.0)) return {};
-    x /= sum;
-    y /= sum;
-    const double pitch2 = frame.pitch_mm * frame.pitch_mm;
-    return {frame.left_mm + (column + x) * frame.pitch_mm,
-            frame.bottom_mm + (row + y) * frame.pitch_mm, (xx / sum - x * x) * pitch2,
-            (yy / sum - y * y) * pitch2, (xy / sum - x * y) * pitch2};
-}
-
 }  // namespace ghostlight

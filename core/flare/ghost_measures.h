@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "core/flare/color_mesh.h"
-#include "core/flare/flare_plan.h"
 #include "core/ghosts/mirror_grid.h"
 
 namespace ghostlight {
@@ -14,6 +13,13 @@ bool is_within(const MeshNodes& nodes, std::size_t node, double least);
 
 /// Light beyond the rim that a bend or a shift may be measured on, in units of a clearance.
 inline constexpr double near_rim = -0.15;
+
+/// Of the bend times the contrast: only its part across an edge counts, and most of the contrast
+/// is at rims, where chords follow the bend. Calibrated on all bundled lenses, see
+/// docs/benchmarks.md.
+inline constexpr double grid_factor = 0.3;
+/// Of a chord's height: unbiased chords are off by a quarter of it on average.
+inline constexpr double rim_factor = 0.25;
 
 /// How far a grid's nodes are from the means of their neighbours, RMS over what passes and lands
 /// near the frame: what a grid twice as coarse gets wrong, hence four times what this one does.
@@ -44,8 +50,5 @@ struct FrameLight {
     bool passes = false, near_frame = false;
 };
 FrameLight light_on_frame(const MeshNodes& nodes, const PixelFrame& frame);
-
-/// Where that light lands, on the frame or beside it.
-GhostMoments moments_of(const MeshNodes& nodes, const PixelFrame& frame);
 
 }  // namespace ghostlight

@@ -1,24 +1,14 @@
 #pragma once
 
-#include <array>
-
 #include "core/flare/color_mesh.h"
 #include "core/flare/flare_plan.h"
 #include "core/flare/ghost_mesh.h"
 
 namespace ghostlight {
 
-/// A ghost's light on the sensor plane, on the sensor or beside it, with its flux and colour.
-struct GhostSpot : GhostMoments {
-    std::array<double, 4> flux_mm2{};  ///< over E0: linear Rec.709, irradiance
-
-    double flux() const { return flux_mm2[3]; }
-    /// Standard deviations along the principal axes, the smaller first, mm.
-    std::array<double, 2> sigmas_mm() const;
-};
-
-/// Moments of the light that a grid of rays carries, each cell split into parts of which those
-/// inside the interpolated clearances count. `nodes.weights` holds 4 a node.
-GhostSpot spot_of(const MeshNodes& nodes, const PixelFrame& frame);
+/// Moments of the light that a grid of rays carries: exact for what is bilinear over whole cells;
+/// cells that a rim goes through are split into parts, of which those inside the interpolated
+/// clearances count. `channels`: of `nodes.weights`, 1 (irradiance; the spot is grey) or 4.
+GhostSpot spot_of(const MeshNodes& nodes, int channels, const PixelFrame& frame);
 
 }  // namespace ghostlight

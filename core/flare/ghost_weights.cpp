@@ -11,9 +11,11 @@ namespace ghostlight {
 namespace {
 
 constexpr int polarised_cells = 6;
-constexpr int closer_cells = 12;        ///< where few of those rays are valid
-constexpr std::size_t few_valid = 8;    ///< of 28
-constexpr double least_error = 1e-3;    ///< of the light: more is looked at more closely
+constexpr int closer_cells = 12;      ///< where few of those rays are valid
+constexpr std::size_t few_valid = 8;  ///< of 28
+constexpr double least_error = 1e-3;  ///< of the light: more is looked at more closely
+/// Where films give hardly any light at one wavelength's angles, ratios mean nothing.
+constexpr float least_color_ratio = 0.25F, most_color_ratio = 4.0F;
 constexpr double steeper_by_rad = 0.1;  ///< than the rays of a grid may be those between them
 
 /// Rays of a half grid that get through all clear radii, and their neighbours, valid or not.
@@ -40,6 +42,7 @@ PolarisedShare polarised_share(const FlareScene& scene, const TracePath<float>& 
     for (const int cells : {polarised_cells, closer_cells}) {
         result.grid.box = box;
         result.grid.cells = cells;
+        result.grid.half.keep_cosines = !scene.is_gray();
         trace_mirrored(path, beam, Weights::polarised, result.grid);
         const Bundle<float>& rays = result.grid.half;
         result.ratio.assign(rays.size(), 1.0F);
@@ -60,10 +63,84 @@ PolarisedShare polarised_share(const FlareScene& scene, const TracePath<float>& 
     return result;
 }
 
+namespace {
+
+/// Of polarisation's effect where planes of incidence are one, what a ray has at the main
+/// wavelength: the cosine of twice the angle between those planes, as far as two matter.
+float share_of_polarisation(float ratio, float in_one_plane) {
+    constexpr float least = 1e-3F, most = 1.5F;
+    const float effect = in_one_plane - 1.0F;
+    return std::abs(effect) > least ? std::clamp((ratio - 1.0F) / effect, -most, most) : 1.0F;
+}
+
+}  // namespace
+
+ColorShare color_share(const FlareScene& scene, const GhostPath& path, const BeamFrame& beam,
+                       const PolarisedShare& polarised) {
+    ColorShare result;
+    if (scene.is_gray() || polarised.ratio.empty()) return result;
+    const std::size_t samples = scene.samples.size(), stride = scene.films.stride();
+    const Bundle<float>& rays = polarised.grid.half;
+    std::vector<float> main, in_one_plane, own;
+    const auto trace = trace_path<float>(scene.system(), path);
+    scene.films.weights(trace, rays, main);
+    scene.films.polarisation(trace, rays, in_one_plane);
+    std::vector<std::vector<double>> shares;
+    for (const SpectralSample& s : scene.samples)
+        shares.push_back(scene.interpolation(s.wavelength_nm));
+    const auto at_main =
+        static_cast<std::size_t>(std::ranges::find(scene.samples, scene.system().wavelength_nm,
+                                                   &SpectralSample::wavelength_nm) -
+                                 scene.samples.begin());
+    result.ratio.assign(rays.size() * samples, 0.0F);
+    for (std::size_t g = 0; g < scene.geometry.size(); ++g) {
+        MirrorGrid* grid = g == scene.main ? nullptr : g == 0 ? &result.first : &result.last;
+        if (grid != nullptr) {
+            grid->box = polarised.grid.box;
+            grid->cells = polarised.grid.cells;
+            grid->half.keep_cosines = true;
+            const auto other = trace_path<float>(scene.geometry[g], path);
+            trace_mirrored(other, beam, Weights::none, *grid);
+            scene.films.weights(other, grid->half, own);
+        }
+        for (std::size_t k = 0; k < rays.size(); ++k) {
+            // Where a colour fails the main one stands for it.
+            const bool differs =
+                grid != nullptr && grid->half.margin[k] >= 0.0F && rays.margin[k] >= 0.0F;
+            for (std::size_t w = 0; w < samples; ++w) {
+                const float there = main[k * stride + w];
+                const float angles = differs && there > 0.0F ? own[k * stride + w] / there : 1.0F;
+                result.ratio[k * samples + w] +=
+                    static_cast<float>(shares[w][g]) *
+                    std::clamp(angles, least_color_ratio, most_color_ratio);
+            }
+        }
+    }
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+        const float share =
+            at_main < samples
+                ? share_of_polarisation(polarised.ratio[k], in_one_plane[k * stride + at_main])
+                : 0.0F;
+        for (std::size_t w = 0; w < samples; ++w) {
+            const float turned = 1.0F + share * (in_one_plane[k * stride + w] - 1.0F);
+            result.ratio[k * samples + w] *=
+                std::clamp(turned / polarised.ratio[k], least_color_ratio, most_color_ratio);
+        }
+    }
+    return result;
+}
+
 std::vector<float> ghost_weights(const FlareScene& scene, const TracePath<float>& path,
-                                 const MirrorGrid& grid, const PolarisedShare& polarised) {
+                                 const MirrorGrid& grid, const PolarisedShare& polarised,
+                                 const std::vector<float>& colors) {
     std::vector<float> weights;
     scene.films.weights(path, grid.half, weights);
+    if (grid.other.size() > 0) {
+        std::vector<float> others;
+        scene.films.weights(path, grid.other, others);
+        for (std::size_t k = 0; k < weights.size(); ++k)
+            weights[k] = 0.5F * (weights[k] + others[k]);
+    }
     const std::size_t stride = scene.films.stride();
     const Bundle<float>& rays = grid.half;
     if (grid.is_polarised) {
@@ -74,9 +151,17 @@ std::vector<float> ghost_weights(const FlareScene& scene, const TracePath<float>
         }
     } else if (!polarised.ratio.empty()) {
         const std::vector<float> ratio =
-            interpolate_smooth(polarised.grid, polarised.ratio, grid.cells);
+            interpolate_smooth(polarised.grid, polarised.ratio, 1, grid.cells);
         for (std::size_t k = 0; k < ratio.size(); ++k)
             for (std::size_t w = 0; w < stride; ++w) weights[k * stride + w] *= ratio[k];
+    }
+    if (!colors.empty()) {
+        const std::size_t samples = scene.samples.size();
+        const std::vector<float> ratio =
+            interpolate_smooth(polarised.grid, colors, static_cast<int>(samples), grid.cells);
+        for (std::size_t k = 0; k < rays.size(); ++k)
+            for (std::size_t w = 0; w < samples; ++w)
+                weights[k * stride + w] *= std::max(ratio[k * samples + w], 0.0F);
     }
     fill_failed(grid, static_cast<int>(stride), weights);
     return weights;

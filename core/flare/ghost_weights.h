@@ -19,11 +19,23 @@ struct PolarisedShare {
 PolarisedShare polarised_share(const FlareScene& scene, const TracePath<float>& path,
                                const BeamFrame& beam, const PupilBox& box);
 
+/// What other wavelengths do to a path's weights beyond their own films: their rays meet the
+/// surfaces at other angles, known from rays of the outer geometry wavelengths and interpolated
+/// like positions; and polarisation has another effect on them, known from what s and p go through
+/// at each wavelength and from the effect at the main one.
+struct ColorShare {
+    MirrorGrid first, last;    ///< of the outer wavelengths, traced on the grid of a PolarisedShare
+    std::vector<float> ratio;  ///< a value a sample for each ray of that grid; empty: 1 everywhere
+};
+ColorShare color_share(const FlareScene& scene, const GhostPath& path, const BeamFrame& beam,
+                       const PolarisedShare& polarised);
+
 /// Weights of a half grid that kept its cosines, at the scene's samples, FilmTables::stride() a
 /// ray, polarisation included (by the grid's own rays, if they are traced so); failed rays take
-/// their neighbours'.
+/// their neighbours'. `colors` on the grid of `polarised`: ColorShare::ratio.
 std::vector<float> ghost_weights(const FlareScene& scene, const TracePath<float>& path,
-                                 const MirrorGrid& grid, const PolarisedShare& polarised);
+                                 const MirrorGrid& grid, const PolarisedShare& polarised,
+                                 const std::vector<float>& colors);
 
 /// Light per E0 in each channel, ray by ray of a half grid, made ready for interpolation. `shares`
 /// as channel_shares() gives them.

@@ -139,28 +139,28 @@ Cubic cubic_at(float x, int first, int last) {
 }  // namespace
 
 std::vector<float> interpolate_smooth(const MirrorGrid& from, const std::vector<float>& values,
-                                      int cells) {
+                                      int channels, int cells) {
     const int across = from.half_side(), side = cells + 1, half = cells / 2 + 1;
     const float scale = static_cast<float>(from.cells) / static_cast<float>(cells);
     std::vector<Cubic> columns;
     // One mirrored column on the other side of the middle belongs to the same smooth function.
     for (int i = 0; i < half; ++i)
         columns.push_back(cubic_at(static_cast<float>(i) * scale, -1, across - 1));
-    std::vector<float> result(idx(side * half)), row(idx(across));
+    std::vector<float> result(idx(side * half * channels), 0.0F), row(idx(across * channels));
     for (int j = 0; j < side; ++j) {
         const Cubic up = cubic_at(static_cast<float>(j) * scale, 0, from.cells);
-        for (int m = 0; m < across; ++m) {
-            float sum = 0.0F;
-            for (int k = 0; k < 4; ++k)
-                sum += up.share[idx(k)] * values[idx((up.first + k) * across + m)];
-            row[idx(m)] = sum;
+        std::ranges::fill(row, 0.0F);
+        for (int k = 0; k < 4; ++k) {
+            const float* line = values.data() + (up.first + k) * across * channels;
+            for (int m = 0; m < across * channels; ++m) row[idx(m)] += up.share[idx(k)] * line[m];
         }
-        for (int i = 0; i < half; ++i) {
-            float sum = 0.0F;
-            for (int k = 0; k < 4; ++k)
-                sum +=
-                    columns[idx(i)].share[idx(k)] * row[idx(std::abs(columns[idx(i)].first + k))];
-            result[idx(j * half + i)] = sum;
+        float* to = result.data() + j * half * channels;
+        for (const Cubic& at : columns) {
+            for (int k = 0; k < 4; ++k) {
+                const float* node = row.data() + std::abs(at.first + k) * channels;
+                for (int c = 0; c < channels; ++c) to[c] += at.share[idx(k)] * node[c];
+            }
+            to += channels;
         }
     }
     return result;

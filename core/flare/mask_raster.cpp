@@ -8,6 +8,7 @@
 #include <random>
 
 #include "core/error.h"
+#include "core/flare/dirt_statistics.h"
 #include "core/optics/trace.h"
 
 namespace ghostlight {
@@ -84,10 +85,7 @@ void add_dust(const StopDirt& dirt, double a, Painter& painter) {
     // Specks thrown at random leave exp(−Σ their areas / the circle's) of it free.
     const double small = dirt.dust_smallest_mm, large = dirt.dust_largest_mm;
     const double wanted = -std::log1p(-dirt.dust_coverage) * pi * a * a;
-    const double spread = std::log(large / small);
-    const double mean_square =
-        spread > 0.0 ? (large * large - small * small) / (2.0 * spread) : small * small;
-    const double count = wanted / (0.25 * pi * mean_square);
+    const double count = expected_specks(dirt, a);
     if (count > most_specks)
         throw Error({.problem = "more specks of dust than can be drawn",
                      .file = {},
@@ -164,41 +162,85 @@ void add_fingerprint(const StopDirt& dirt, double a, Painter& painter) {
     });
 }
 
-/// Distance inside a convex outline, in semi-diameters.
-double distance_inside(const ApertureOutline& outline, double x, double y) {
-    double least = 4.0;
-    for (std::size_t e = 0; e < outline.corners.size(); ++e) {
-        const glm::dvec2 from = outline.corners[e];
-        const glm::dvec2 d = outline.corners[(e + 1) % outline.corners.size()] - from;
-        const double length = std::hypot(d.x, d.y);
-        if (length > 0.0)
-            least = std::min(least, (d.x * (y - from.y) - d.y * (x - from.x)) / length);
+/// Distance inside of what is open, in semi-diameters: the least of its edges'.
+class Opening {
+   public:
+    Opening(const StopMask& mask, const ApertureOutline* beam) {
+        if (mask.blades >= 3) {
+            // As stop_margin() has them: lines, or arcs through two corners.
+            const double half = pi / mask.blades;
+            const bool curved = mask.blade_curvature > 0.0;
+            const double radius = curved ? 1.0 / mask.blade_curvature : 0.0;
+            const double back =
+                curved ? std::sqrt(radius * radius - std::pow(std::sin(half), 2)) - std::cos(half)
+                       : 0.0;
+            for (int edge = 0; edge < mask.blades; ++edge) {
+                const double middle = mask.rotation_rad + half * (2 * edge + 1);
+                const double nx = std::cos(middle), ny = std::sin(middle);
+                if (curved)
+                    arcs_.push_back({-back * nx, -back * ny, radius});
+                else
+                    lines_.push_back({nx, ny, std::cos(half)});
+            }
+            whole_within_ = std::cos(half);
+        }
+        for (std::size_t e = 0; beam != nullptr && e < beam->corners.size(); ++e) {
+            const glm::dvec2 from = beam->corners[e];
+            const glm::dvec2 d = beam->corners[(e + 1) % beam->corners.size()] - from;
+            const double length = std::hypot(d.x, d.y);
+            if (!(length > 0.0)) continue;
+            const double nx = d.y / length, ny = -d.x / length;
+            lines_.push_back({nx, ny, from.x * nx + from.y * ny});
+            whole_within_ = std::min(whole_within_, lines_.back().distance);
+        }
     }
-    return least;
-}
+
+    double inside(double x, double y, double pitch) const {
+        const double r = std::sqrt(x * x + y * y);
+        double least = 1.0 - r;
+        if (r < whole_within_ - pitch || least < -pitch) return least;
+        for (const Line& line : lines_)
+            least = std::min(least, line.distance - x * line.nx - y * line.ny);
+        for (const Arc& arc : arcs_) {
+            const double dx = x - arc.x, dy = y - arc.y;
+            least = std::min(least, arc.radius - std::sqrt(dx * dx + dy * dy));
+        }
+        return least;
+    }
+
+   private:
+    struct Line {
+        double nx, ny, distance;
+    };
+    struct Arc {
+        double x, y, radius;
+    };
+    std::vector<Line> lines_;
+    std::vector<Arc> arcs_;
+    double whole_within_ = 1.0;  ///< of the middle nothing but the circle can be near
+};
 
 MaskRaster clean_raster(const StopMask& mask, int across, const ApertureOutline* beam) {
     MaskRaster raster{across, std::vector<float>(idx(across) * idx(across), 0.0F)};
-    StopMask blades = mask;
-    blades.picture = nullptr;
-    blades.semi_diameter_mm = 1.0;
+    const Opening opening(mask, beam);
     const double pitch = raster.pitch();
     const double c = std::cos(mask.rotation_rad), s = std::sin(mask.rotation_rad);
     for (int j = 0; j < across; ++j)
         for (int i = 0; i < across; ++i) {
             const double x = (i + 0.5) * pitch - 1.0, y = (j + 0.5) * pitch - 1.0;
-            double inside = 1.0 - std::hypot(x, y);
-            if (inside < -pitch) continue;
-            if (blades.blades >= 3)
-                for (int edge = 0; edge < stop_edges(blades); ++edge)
-                    inside = std::min(inside, stop_margin(blades, edge, x, y));
-            if (beam != nullptr) inside = std::min(inside, distance_inside(*beam, x, y));
-            double open = std::clamp(0.5 + inside / pitch, 0.0, 1.0);
+            double open = std::clamp(0.5 + opening.inside(x, y, pitch) / pitch, 0.0, 1.0);
             if (open > 0.0 && mask.picture)
                 open *= mask.picture->open_at(c * x + s * y, c * y - s * x);
             raster.open[idx(j * across + i)] = static_cast<float>(open);
         }
     return raster;
+}
+
+void add_dirt(const StopMask& mask, const StopDirt& dirt, MaskRaster& raster) {
+    Painter painter(raster);
+    add_dust(dirt, mask.semi_diameter_mm, painter);
+    add_scratches(dirt, mask.semi_diameter_mm, painter);
+    add_fingerprint(dirt, mask.semi_diameter_mm, painter);
 }
 
 }  // namespace
@@ -212,17 +254,16 @@ double MaskRaster::area() const {
 MaskRaster mask_raster(const StopMask& mask, const StopDirt& dirt, int across,
                        const ApertureOutline* beam) {
     MaskRaster raster = clean_raster(mask, across, beam);
-    Painter painter(raster);
-    add_dust(dirt, mask.semi_diameter_mm, painter);
-    add_scratches(dirt, mask.semi_diameter_mm, painter);
-    add_fingerprint(dirt, mask.semi_diameter_mm, painter);
+    add_dirt(mask, dirt, raster);
     return raster;
 }
 
 double clear_share(const StopMask& mask, const StopDirt& dirt) {
     if (dirt.is_clean()) return 1.0;
-    const double clean = mask_raster(mask, {}, share_across).area();
-    return clean > 0.0 ? mask_raster(mask, dirt, share_across).area() / clean : 1.0;
+    MaskRaster raster = clean_raster(mask, share_across, nullptr);
+    const double clean = raster.area();
+    add_dirt(mask, dirt, raster);
+    return clean > 0.0 ? raster.area() / clean : 1.0;
 }
 
 }  // namespace ghostlight

@@ -31,11 +31,20 @@ void add_rings(PolarPattern& pattern, const PowerGrid& grid, double area, int fi
     parallel_for(idx(std::max(0, last - first)), threads, stop, [&](std::size_t r) {
         add_sampled_ring(pattern, first + static_cast<int>(r), area,
                          [&](double k, int around, double weight, std::vector<double>& power) {
-                             const double span = pattern.span_rad();
-                             for (int s = 0; s < around; ++s) {
-                                 const double angle = span * s / around;
-                                 power[idx(s)] +=
-                                     weight * grid.at_k(k * std::cos(angle), k * std::sin(angle));
+                             // Turned step by step, anew from time to time.
+                             constexpr int anew_every = 64;
+                             const double step = pattern.span_rad() / around;
+                             const double c = std::cos(step), s = std::sin(step);
+                             double x = k, y = 0.0;
+                             for (int n = 0; n < around; ++n) {
+                                 if (n % anew_every == 0) {
+                                     x = k * std::cos(step * n);
+                                     y = k * std::sin(step * n);
+                                 }
+                                 power[idx(n)] += weight * grid.at_k(x, y);
+                                 const double turned = c * x - s * y;
+                                 y = s * x + c * y;
+                                 x = turned;
                              }
                          });
     });
@@ -91,9 +100,12 @@ void continue_outwards(PolarPattern& pattern, int from) {
 
 }  // namespace
 
+PowerGrid::PowerGrid(int across, double pitch)
+    : across_(across), step_(2.0 * pi / (across * pitch)), power_(idx(across) * idx(across)) {}
+
 PowerGrid::PowerGrid(const MaskRaster& raster, int across, double fresnel_number, unsigned threads,
                      const std::stop_token& stop)
-    : across_(across), step_(2.0 * pi / (across * raster.pitch())) {
+    : PowerGrid(across, raster.pitch()) {
     std::vector<std::complex<float>> field(idx(across) * idx(across));
     const double pitch = raster.pitch();
     for (int j = 0; j < raster.across; ++j)
@@ -105,16 +117,49 @@ PowerGrid::PowerGrid(const MaskRaster& raster, int across, double fresnel_number
                 std::polar(open, static_cast<float>(std::remainder(phase, 2.0 * pi)));
         }
     is_complete_ = transform_2d(field, across, false, threads, stop);
-    power_.resize(field.size());
     for (std::size_t k = 0; k < field.size(); ++k) power_[k] = std::norm(field[k]);
-    // Pixels are means: their own spectrum is divided out, up to where it has half of its power.
-    for (int j = 0; j < across; ++j)
-        for (int i = 0; i < across; ++i) {
-            const double x = pi * (i < across / 2 ? i : i - across) / across;
-            const double y = pi * (j < across / 2 ? j : j - across) / across;
-            const double own = std::max(0.5, sinc(x) * sinc(y));
-            power_[idx(j) * idx(across) + idx(i)] *=
-                static_cast<float>(pitch * pitch * pitch * pitch / (own * own));
+    sharpen(pitch);
+}
+
+std::array<PowerGrid, 2> PowerGrid::of_two(const MaskRaster& a, const MaskRaster& b, int across,
+                                           unsigned threads, const std::stop_token& stop) {
+    std::array<PowerGrid, 2> grids = {PowerGrid(across, a.pitch()), PowerGrid(across, b.pitch())};
+    const std::size_t n = idx(across);
+    std::vector<std::complex<float>> field(n * n);
+    // About as much in the one as in the other, for rounding's sake.
+    const float scale =
+        static_cast<float>(b.across * b.across) / static_cast<float>(a.across * a.across);
+    for (int j = 0; j < a.across; ++j)
+        for (int i = 0; i < a.across; ++i)
+            field[idx(j) * n + idx(i)].real(scale * a.open[idx(j * a.across + i)]);
+    for (int j = 0; j < b.across; ++j)
+        for (int i = 0; i < b.across; ++i)
+            field[idx(j) * n + idx(i)].imag(b.open[idx(j * b.across + i)]);
+    const bool complete = transform_2d(field, across, false, threads, stop);
+    // F = A + iB, and A(−k) = A*(k).
+    for (std::size_t j = 0; j < n; ++j)
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::complex<float> here = field[j * n + i];
+            const std::complex<float> there = std::conj(field[(n - j) % n * n + (n - i) % n]);
+            grids[0].power_[j * n + i] = 0.25F * std::norm(here + there) / (scale * scale);
+            grids[1].power_[j * n + i] = 0.25F * std::norm(here - there);
+        }
+    grids[0].sharpen(a.pitch());
+    grids[1].sharpen(b.pitch());
+    grids[0].is_complete_ = grids[1].is_complete_ = complete;
+    return grids;
+}
+
+void PowerGrid::sharpen(double pitch) {
+    std::vector<float> own(idx(across_));
+    for (int i = 0; i < across_; ++i)
+        own[idx(i)] = static_cast<float>(sinc(pi * (i < across_ / 2 ? i : i - across_) / across_));
+    const auto scale = static_cast<float>(pitch * pitch * pitch * pitch);
+    // Up to where it has half of its power.
+    for (int j = 0; j < across_; ++j)
+        for (int i = 0; i < across_; ++i) {
+            const float both = std::max(0.5F, own[idx(i)] * own[idx(j)]);
+            power_[idx(j) * idx(across_) + idx(i)] *= scale / (both * both);
         }
 }
 
@@ -148,13 +193,22 @@ std::optional<PolarPattern> masked_pattern(const PatternMask& mask, double fresn
     const int outer = std::min(pattern.rings, static_cast<int>(PolarPattern::ring_of(outer_k)));
     // Out of focus the phase needs the fine raster everywhere, and blurs what the core would show.
     const bool in_focus = std::abs(fresnel_number) <= 1.0;
+    std::optional<PowerGrid> whole;
     if (in_focus) {
         const MaskRaster coarse = mask_raster(mask.stop, mask.dirt, coarse_across, beam);
-        const PowerGrid grid(coarse, transform_across, fresnel_number, threads, stop);
-        if (!grid.is_complete()) return std::nullopt;
-        add_rings(pattern, grid, area, 0, core, threads, stop);
+        std::optional<PowerGrid> middle;
+        if (fresnel_number == 0.0) {
+            auto both = PowerGrid::of_two(coarse, fine, transform_across, threads, stop);
+            middle = std::move(both[0]);
+            whole = std::move(both[1]);
+        } else {
+            middle.emplace(coarse, transform_across, fresnel_number, threads, stop);
+        }
+        if (!middle->is_complete()) return std::nullopt;
+        add_rings(pattern, *middle, area, 0, core, threads, stop);
     }
-    const PowerGrid grid(fine, transform_across, fresnel_number, threads, stop);
+    if (!whole) whole.emplace(fine, transform_across, fresnel_number, threads, stop);
+    const PowerGrid& grid = *whole;
     if (!grid.is_complete()) return std::nullopt;
     add_rings(pattern, grid, area, in_focus ? core : 0, outer, threads, stop);
     if (stop.stop_requested()) return std::nullopt;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <stop_token>
+#include <vector>
 
 #include "core/flare/mask_raster.h"
 #include "core/flare/polar_pattern.h"
@@ -33,6 +35,10 @@ class PowerGrid {
    public:
     PowerGrid(const MaskRaster& raster, int across, double fresnel_number, unsigned threads,
               const std::stop_token& stop = {});
+    /// Of two rasters without phases by one transform, the one as its real and the other as its
+    /// imaginary part.
+    static std::array<PowerGrid, 2> of_two(const MaskRaster& a, const MaskRaster& b, int across,
+                                           unsigned threads, const std::stop_token& stop = {});
     bool is_complete() const { return is_complete_; }
     double step() const { return step_; }
     /// At grid indices from −across/2 to across/2 − 1.
@@ -41,6 +47,10 @@ class PowerGrid {
     double at_k(double kx, double ky) const;
 
    private:
+    PowerGrid(int across, double pitch);
+    /// Pixels are means: their own spectrum is divided out.
+    void sharpen(double pitch);
+
     int across_ = 0;
     double step_ = 0.0;
     bool is_complete_ = false;

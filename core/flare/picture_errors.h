@@ -11,9 +11,11 @@ struct PictureErrors {
     double energy = 0.0;       ///< Σ picture / Σ truth − 1
     /// Mean over pixels of |a − b| / (a + b + floor), the floor 1 % of the truth's mean.
     double smape = 0.0;
-    /// What the eye makes of it: the mean absolute difference of log₂(irradiance + floor), in
-    /// stops, over the pixels where the truth is above the floor.
+    /// Mean absolute difference of log₂(irradiance + floor), in stops, over the pixels where the
+    /// truth is above the floor.
     double log_stops = 0.0;
+    /// HDR-FLIP (flip.h), 0 to 1: what the eye makes of it. Not filled in by picture_errors().
+    double flip = 0.0;
 };
 PictureErrors picture_errors(const std::vector<float>& picture, const std::vector<float>& truth);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/flare/diffraction_omissions.h"
 #include "core/flare/picture_errors.h"
 #include "core/flare/reference_image.h"
 
@@ -32,14 +33,22 @@ OfFate sum_of(const FlarePlan& plan, const PlanProof* proof, GhostFate fate) {
 
 }  // namespace
 
-PlanReport plan_report(const FlareScene& scene, const FlarePlan& plan, const PlanProof* proof) {
+double bounded_error(const FlarePlan& plan) {
+    const double light_mm2 = plan.flux_mm2 + plan.folded_mm2;
+    if (!(light_mm2 > 0.0)) return 0.0;
+    return (plan.left_out_mm2 + 2.0 * plan.folded_mm2 + doubt * plan.error_mm2) / light_mm2;
+}
+
+PlanReport plan_report(const FlareScene& scene, const FlareRequest& request, const FlarePlan& plan,
+                       const PlanProof* proof) {
     PlanReport report;
-    report.flux_mm2 = plan.flux_mm2;
+    report.flux_mm2 = plan.flux_mm2 + plan.folded_mm2;
     auto add = [&](std::string what, std::string why, std::size_t ghosts,
                    std::optional<double> bound_mm2, bool proven) {
         if (ghosts == 0) return;
         report.omissions.push_back({std::move(what), std::move(why), ghosts, bound_mm2, proven});
         report.bound_mm2 += bound_mm2.value_or(0.0);
+        if (proven) report.proven_mm2 += bound_mm2.value_or(0.0);
     };
     auto missed = [&](const OfFate& sum) {
         return proof ? std::optional(sum.missed_mm2) : std::nullopt;
@@ -48,12 +57,9 @@ PlanReport plan_report(const FlareScene& scene, const FlarePlan& plan, const Pla
     add("ghosts left out", "the bound of their light is below their share of the error",
         left_out.ghosts, left_out.bound_mm2, true);
     const OfFate folded = sum_of(plan, proof, GhostFate::folded);
-    double veil_mm2 = 0.0;
-    for (const PlannedGhost& ghost : plan.ghosts)
-        if (ghost.fate == GhostFate::folded) veil_mm2 += ghost.flux_mm2;
     // Light in the wrong place is missing from the right one too.
     add("ghosts folded into the veil", "too faint and broad to be seen by themselves",
-        folded.ghosts, 2.0 * veil_mm2, false);
+        folded.ghosts, 2.0 * plan.folded_mm2, false);
     const OfFate beside = sum_of(plan, proof, GhostFate::off_sensor);
     add("ghosts beside the sensor", "none of the light that was found lands on it", beside.ghosts,
         missed(beside), true);
@@ -81,6 +87,17 @@ PlanReport plan_report(const FlareScene& scene, const FlarePlan& plan, const Pla
         add(fmt::format("of these, with {} wavelengths merged into bands", scene.samples.size()),
             "colour shifts them by less than their share", merged, std::nullopt, false);
     }
+    add("polarisation of every ray", "it is carried along few rays, and interpolated between them",
+        scene.coating_model == CoatingModel::exact ? drawn.ghosts : 0, std::nullopt, false);
+    for (Omission& each : diffraction_omissions(scene, request, plan)) {
+        report.bound_mm2 += each.bound_mm2.value_or(0.0);
+        report.omissions.push_back(std::move(each));
+    }
+    report.omissions.push_back({.what = "glare of dust and polish",
+                                .why = "a layer of its own, the veil, where it is asked for",
+                                .ghosts = 0,
+                                .bound_mm2 = std::nullopt,
+                                .proven = false});
     if (plan.not_modelled > 0.0)
         report.omissions.push_back(
             {.what = "ghosts of four and more reflections",

@@ -9,6 +9,7 @@
 #include "core/flare/draw_picture.h"
 #include "core/flare/planned_ghost.h"
 #include "core/flare/probe_all.h"
+#include "core/flare/radial_flare.h"
 #include "core/flare/ringing.h"
 #include "core/parallel.h"
 
@@ -35,6 +36,14 @@ std::vector<Batch> batches_of(const GhostPlanner& planner, const std::vector<Pro
         ++batches.back().count;
     }
     return batches;
+}
+
+/// What was needed to draw it.
+void release(ProbedGhost& ghost) {
+    ghost.grid = {};
+    ghost.weights = {};
+    ghost.colors = {};
+    ghost.polarised = {};
 }
 
 template <int C>
@@ -83,13 +92,21 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
                                                                     : drawn[k].mesh.flux_mm2[C - 1];
             image.cells += drawn[k].mesh.cells;
             image.rays += planned.rays;
+            release(probed[batch.first + k]);
         }
+    }
+    if (request.ringing) {
+        const auto rang = Clock::now();
+        const auto rung = ringing_of(scene, request, planner, probed, stop);
+        if (!rung || !draw_ringing(*rung, frame, request.threads, stop, picture))
+            return std::nullopt;
+        for (const RungMesh& mesh : *rung) image.ringing.push_back(mesh.report);
+        image.times.ringing_ms = ms_since(rang);
     }
     if (!picture.finish(request.threads, stop, image) ||
         (highlight && !finish_highlight(*highlight, request.threads, stop, image)))
         return std::nullopt;
     image.plan = plan_of(scene, request, probed);
-    if (request.ringing && !add_ringing(scene, request, stop, image)) return std::nullopt;
     image.times.total_ms = ms_since(began);
     return image;
 }
@@ -98,6 +115,7 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
 
 std::optional<FlareImage> render_planned(const FlareScene& scene, const FlareRequest& request,
                                          std::stop_token stop) {
+    if (is_radial(scene, request)) return render_radial(scene, request, std::move(stop));
     return scene.is_gray() ? render<gray_channels>(scene, request, std::move(stop))
                            : render<color_channels>(scene, request, std::move(stop));
 }

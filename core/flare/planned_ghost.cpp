@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/flare/ghost_measures.h"
+#include "core/flare/ghost_spot.h"
 #include "core/flare/ghost_weights.h"
 #include "core/flare/grid_light.h"
 #include "core/flare/picture_levels.h"
@@ -267,7 +268,7 @@ void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
                     traced(ghost, g, cells, rough && g == scene_.main,
                            polarised && g == scene_.main ? Weights::polarised : Weights::none));
         }
-    for (const MirrorGrid& grid : finer) planned.rays += grid.half.size();
+    for (const MirrorGrid& grid : finer) planned.rays += grid.half.size() + grid.other.size();
     auto next = finer.begin();
     for (std::size_t g = 0; g < scene_.geometry.size(); ++g)
         if (bands > 1 || g == scene_.main)
@@ -276,7 +277,7 @@ void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
     if (rough && cells != probe_cells)
         draw_grids(geometry, main,
                    ghost_weights(scene_, trace_path<float>(scene_.system(), planned.path), main,
-                                 ghost.polarised),
+                                 ghost.polarised, ghost.colors),
                    bands, split, ghost, mesh);
     else
         draw_grids(geometry, probe, ghost.weights, bands, split, ghost, mesh);
@@ -284,13 +285,13 @@ void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
     choose_level(chosen, mesh.edge_contrast * pixel_mm2, mesh.slope_contrast * pixel_mm2, planned);
 }
 
-MeshNodes GhostPlanner::landed(const ProbedGhost& ghost) const {
+GhostSpot GhostPlanner::spot(const ProbedGhost& ghost) const {
     MeshNodes nodes = placement_.place(ghost.grid);
     interpolate(ghost.grid,
                 ray_light<color_channels>(scene_, ghost.grid, ghost.weights,
                                           channel_shares<color_channels>(scene_, 0, 1)),
                 color_channels, nodes.cells, nodes.weights);
-    return nodes;
+    return spot_of(nodes, color_channels, placement_.frame());
 }
 
 GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
@@ -312,11 +313,11 @@ GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
     if (planned.cells != probe_cells && (own_weights || chosen.split)) {
         fine = traced(ghost, scene_.main, planned.cells, own_weights,
                       chosen.polarised ? Weights::polarised : Weights::none);
-        planned.rays += fine.half.size();
+        planned.rays += fine.half.size() + fine.other.size();
     }
     if (own_weights)
         fine_weights = ghost_weights(scene_, trace_path<float>(scene_.system(), planned.path), fine,
-                                     ghost.polarised);
+                                     ghost.polarised, ghost.colors);
     const MirrorGrid& weight_grid = own_weights ? fine : probe;
     const std::vector<float>& weights = own_weights ? fine_weights : ghost.weights;
     auto light = [&](int band, int bands) {

@@ -33,6 +33,7 @@ struct ProbedGhost {
     MirrorGrid grid;             ///< the probe, at the main geometry wavelength, with its cosines
     std::size_t passing = 0;     ///< of its nodes
     PolarisedShare polarised;    ///< over the box
+    std::vector<float> colors;   ///< ColorShare::ratio
     std::vector<float> weights;  ///< of the probe's half grid, FilmTables::stride() a ray
     /// Single precision moves its rays by more than is_ill_conditioned() allows (path_stability.h):
     /// it is traced in double.
@@ -64,12 +65,17 @@ class GhostPlanner {
     template <int C>
     void draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const;
 
-    /// The probe's rays as they land on the sensor, with their light in four channels a node.
-    MeshNodes landed(const ProbedGhost& ghost) const;
+    /// All its light with its colours, from the probe.
+    GhostSpot spot(const ProbedGhost& ghost) const;
 
     /// The same choices, its level from the first look, for an engine that traces and draws for
     /// itself.
     GhostDrawing prepare(ProbedGhost& ghost) const;
+
+    /// Rays of its main wavelength, without weights.
+    void trace_main(const ProbedGhost& ghost, Bundle<float>& rays) const {
+        trace(ghost, scene_.main, Weights::none, rays);
+    }
 
     const NodePlacement& placement() const { return placement_; }
     const BeamFrame& beam() const { return beam_; }
@@ -98,10 +104,13 @@ class GhostPlanner {
     void trace(const ProbedGhost& ghost, std::size_t node, Weights weights,
                Bundle<float>& rays) const;
     void mind_rounding(ProbedGhost& ghost) const;
+    void trace_other_half(const ProbedGhost& ghost, std::size_t node, Weights weights,
+                          MirrorGrid& grid) const;
     MirrorGrid traced(const ProbedGhost& ghost, std::size_t node, int cells,
                       bool keep_cosines = false, Weights weights = Weights::none) const;
-    void look(const MirrorGrid& first, const MeshNodes& nodes, ProbedGhost& ghost) const;
-    double shift_of_colors_px(const ProbedGhost& ghost) const;
+    void look(const MirrorGrid& first, const MeshNodes& nodes, const ColorShare& colors,
+              ProbedGhost& ghost) const;
+    double shift_of_colors_px(const ProbedGhost& ghost, const ColorShare& colors) const;
     template <int C>
     void draw_grids(const std::vector<const MirrorGrid*>& geometry, const MirrorGrid& weight_grid,
                     const std::vector<float>& weights, int bands, bool split,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/flare/fold_ghosts.h"
 #include "core/ghosts/incoherent_stack.h"
 #include "core/parallel.h"
 
@@ -115,6 +116,7 @@ std::optional<std::vector<ProbedGhost>> probe_all(const FlareScene& scene,
         --end;
     }
     if (!weigh(strong, end - strong)) return std::nullopt;
+    fold_ghosts(planner, request.folded_share, ghosts);
     share_among(ghosts, request.tolerance);
     return ghosts;
 }
@@ -129,7 +131,7 @@ FlarePlan plan_of(const FlareScene& scene, const FlareRequest& request,
     for (ProbedGhost& ghost : ghosts) {
         PlannedGhost& planned = ghost.planned;
         planned.error_mm2 /= caution;
-        plan.flux_mm2 += planned.flux_mm2;
+        (planned.fate == GhostFate::folded ? plan.folded_mm2 : plan.flux_mm2) += planned.flux_mm2;
         plan.error_mm2 += planned.error_mm2;
         if (planned.fate == GhostFate::left_out) plan.left_out_mm2 += planned.bound_mm2;
         plan.ghosts.push_back(std::move(planned));

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/flare/ghost_measures.h"
+#include "core/flare/ghost_spot.h"
 #include "core/flare/grid_light.h"
 #include "core/flare/planned_ghost.h"
 #include "core/ghosts/double_trace.h"
@@ -16,12 +17,6 @@ constexpr int close_cells = 48;           ///< where hardly a ray of a probe pas
 constexpr std::size_t few_passing = 12;   ///< of a probe's nodes
 constexpr std::size_t compared_rays = 8;  ///< of a probe, with double precision
 constexpr int shift_cells = 6;            ///< of the grids that lateral colour is measured on
-/// Of the bend times the contrast: only its part across an edge counts, and most of the contrast
-/// is at rims, where chords follow the bend. Calibrated on all bundled lenses, see
-/// docs/benchmarks.md.
-constexpr double grid_factor = 0.3;
-/// Of a chord's height: unbiased chords are off by a quarter of it on average.
-constexpr double rim_factor = 0.25;
 /// Of the light in singular cells: a root drawn as a line is off by as much, over a cell.
 constexpr double singular_factor = 0.3;
 /// Of the shift between the outer geometry wavelengths times the contrast: most of the light lies
@@ -57,7 +52,15 @@ MirrorGrid GhostPlanner::traced(const ProbedGhost& ghost, std::size_t node, int 
     lay_mirrored(grid);
     trace(ghost, node, weights, grid.half);
     grid.is_polarised = weights == Weights::polarised;
+    if (!economies_.half_beams) trace_other_half(ghost, node, weights, grid);
     return grid;
+}
+
+void GhostPlanner::trace_other_half(const ProbedGhost& ghost, std::size_t node, Weights weights,
+                                    MirrorGrid& grid) const {
+    lay_other_half(grid);
+    trace(ghost, node, weights, grid.other);
+    take_mean_of_halves(grid);
 }
 
 /// Compares some of the probe's rays with double precision; where they differ by what shows, the
@@ -101,14 +104,20 @@ void GhostPlanner::weigh(ProbedGhost& ghost) const {
     if (planned.fate != GhostFate::drawn) return;
     const auto trace = trace_path<float>(scene_.system(), planned.path);
     mind_rounding(ghost);
+    if (!economies_.half_beams) {
+        trace_other_half(ghost, scene_.main, Weights::none, ghost.grid);
+        planned.rays += ghost.grid.other.size();
+    }
     ghost.polarised = polarised_share(scene_, trace, beam_, planned.box);
-    ghost.weights = ghost_weights(scene_, trace, ghost.grid, ghost.polarised);
-    planned.rays += ghost.polarised.ratio.size();
+    ColorShare colors = color_share(scene_, planned.path, beam_, ghost.polarised);
+    ghost.weights = ghost_weights(scene_, trace, ghost.grid, ghost.polarised, colors.ratio);
+    planned.rays +=
+        ghost.polarised.ratio.size() + colors.first.half.size() + colors.last.half.size();
 
     MirrorGrid closer;
     if (ghost.passing < few_passing) {
         closer = traced(ghost, scene_.main, close_cells);
-        planned.rays += closer.half.size();
+        planned.rays += closer.half.size() + closer.other.size();
     }
     const MirrorGrid& first = closer.cells > 0 ? closer : ghost.grid;
     MeshNodes nodes = placement_.place(first);
@@ -119,13 +128,18 @@ void GhostPlanner::weigh(ProbedGhost& ghost) const {
     const FrameLight light = light_on_frame(nodes, placement_.frame());
     planned.flux_mm2 = light.flux_mm2;
     planned.whole_flux_mm2 = light.whole_flux_mm2;
-    planned.moments = moments_of(nodes, placement_.frame());
+    planned.spot = spot_of(nodes, gray_channels, placement_.frame());
     if (!light.passes)
         planned.fate = GhostFate::nothing_passes;
     else if (!light.near_frame)
         planned.fate = GhostFate::off_sensor;
     else
-        look(first, nodes, ghost);
+        look(first, nodes, colors, ghost);
+    ghost.colors = std::move(colors.ratio);
+    // Its weights are known: what they came from is most of a ghost's memory.
+    ghost.grid.half.cosines = {};
+    ghost.grid.half.lengths_mm = {};
+    ghost.polarised.grid.half = {};
 }
 
 ProbedGhost GhostPlanner::probe(const GhostPath& path) const {
@@ -135,8 +149,11 @@ ProbedGhost GhostPlanner::probe(const GhostPath& path) const {
 }
 
 /// How far apart the outer geometry wavelengths land, from few rays where they suffice.
-double GhostPlanner::shift_of_colors_px(const ProbedGhost& ghost) const {
+double GhostPlanner::shift_of_colors_px(const ProbedGhost& ghost, const ColorShare& colors) const {
     double shift = 0.0;
+    if (colors.first.cells > 0)
+        shift = shift_px(placement_.place(colors.first), placement_.place(colors.last));
+    if (shift > 0.0) return shift;
     for (const int cells : {shift_cells, probe_cells}) {
         shift = shift_px(placement_.place(traced(ghost, 0, cells)),
                          placement_.place(traced(ghost, scene_.geometry.size() - 1, cells)));
@@ -146,7 +163,8 @@ double GhostPlanner::shift_of_colors_px(const ProbedGhost& ghost) const {
 }
 
 /// What a plain drawing of the first grid would get wrong.
-void GhostPlanner::look(const MirrorGrid& first, const MeshNodes& nodes, ProbedGhost& ghost) const {
+void GhostPlanner::look(const MirrorGrid& first, const MeshNodes& nodes, const ColorShare& colors,
+                        ProbedGhost& ghost) const {
     const PixelFrame& frame = placement_.frame();
     ColorMesh<gray_channels> mesh;
     add_grid(nodes, frame, mesh);
@@ -162,7 +180,7 @@ void GhostPlanner::look(const MirrorGrid& first, const MeshNodes& nodes, ProbedG
     errors.grid_mm2 =
         contrast * (grid_factor * bend_px(nodes, frame) + rim_factor * rim_px(nodes, frame));
     if (scene_.geometry.size() > 1)
-        errors.merging_mm2 = merging_factor * contrast * shift_of_colors_px(ghost);
+        errors.merging_mm2 = merging_factor * contrast * shift_of_colors_px(ghost, colors);
     errors.weight_mm2 = ghost.planned.flux_mm2 *
                         roughness(ghost.grid, ray_light<gray_channels>(
                                                   scene_, ghost.grid, ghost.weights,

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/flare/flare_scene.h"
-#include "core/optics/optical_system.h"
 
 namespace ghostlight {
 
@@ -16,15 +15,25 @@ using RimColor = std::array<float, rim_channels>;
 /// How far the profile is followed into the shadow, in Fresnel's w.
 inline constexpr double into_shadow = 2.5;
 
-/// What one edge changes, over the depth in semi-diameters: profile − 1 in the light, the profile
-/// in the shadow, in every channel as a share of the ghost's irradiance there.
-class EdgeChange {
-   public:
-    static constexpr int steps = 512;
-    double shadow = 0.0, light = 0.0;  ///< depths it reaches to
-    std::vector<RimColor> profile;     ///< the profile itself, tapered into 0 and 1
+/// The profile of one rim over Fresnel's w, positive in the light: in every channel as a share of
+/// the light there, of all wavelengths together.
+struct RimProfile {
+    float shadow = 0.0F, light = 0.0F;  ///< w it reaches to; tapered into 0 and 1 there
+    float steps_per_w = 0.0F;
+    std::vector<RimColor> values;  ///< from −shadow to light
 
-    RimColor at(double depth) const;
+    RimColor at(float w) const {
+        const float place = (w + shadow) * steps_per_w;
+        if (!(place > 0.0F)) return RimColor{};
+        const auto k = static_cast<std::size_t>(place);
+        if (k + 1 >= values.size()) return RimColor{1.0F, 1.0F, 1.0F, 1.0F};
+        const float part = place - static_cast<float>(k);
+        const RimColor &low = values[k], &high = values[k + 1];
+        RimColor value;
+        for (std::size_t c = 0; c < rim_channels; ++c)
+            value[c] = low[c] + part * (high[c] - low[c]);
+        return value;
+    }
 };
 
 /// Colour shares of a ghost's light: of each spectral sample in each channel, summing to the
@@ -33,24 +42,9 @@ using ColorShares = std::vector<std::array<double, rim_channels>>;
 /// From a ghost's mean weight at each spectral sample.
 ColorShares color_shares(const FlareScene& scene, const std::vector<double>& spectrum);
 
-/// Of a ghost of this Fresnel number, drawn at so many pixels per w, at a round stop or a straight
-/// blade. It gives as much light as it takes.
-EdgeChange edge_change(const FlareScene& scene, const ColorShares& shares, double fresnel_number,
+/// Of a rim of this Fresnel number at the main wavelength, drawn at so many pixels per w, round or
+/// a straight blade. It gives as much light as it takes.
+RimProfile rim_profile(const FlareScene& scene, const ColorShares& shares, double fresnel_number,
                        double px_per_w, bool round);
-
-/// An edge of the stop in semi-diameters: a blade's line, or its arc, or all of a round stop.
-struct EdgeLine {
-    double nx = 0.0, ny = 0.0;  ///< outwards
-    double distance = 1.0;      ///< of a straight one from the middle
-    double back = 0.0, radius = 1.0;
-    bool is_straight = false;
-};
-std::vector<EdgeLine> edge_lines(const StopMask& stop);
-
-/// Depth in semi-diameters, and its direction inwards.
-struct EdgeDepth {
-    double depth, nx, ny;
-};
-EdgeDepth edge_at(const EdgeLine& line, double u, double v);
 
 }  // namespace ghostlight

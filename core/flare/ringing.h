@@ -1,38 +1,48 @@
 #pragma once
 
+#include <optional>
 #include <stop_token>
 #include <vector>
 
+#include "core/flare/draw_picture.h"
 #include "core/flare/flare_image.h"
 #include "core/flare/flare_scene.h"
-#include "core/optics/paraxial.h"
+#include "core/flare/planned_ghost.h"
+#include "core/flare/rung_mesh.h"
 
 namespace ghostlight {
 
-/// How far a ghost's fringes reach on a picture, to first order.
-struct GhostFringes {
-    double fresnel_number = 0.0;  ///< from its last stop crossing on (physics.md §9)
-    /// From the rim to the first bright fringe, 0.861 √(λ|z_eff|) magnified, pixels.
-    double first_fringe_px = 0.0;
-};
-GhostFringes ghost_fringes(const OpticalSystem& system, const ParaxialGhost& ghost,
-                           double pitch_mm);
+/// What diffraction at their rims changes of a picture's ghosts, once these are drawn: irradiance
+/// × (the straight edge's profile − 1) inside of a rim and × the profile outside, at the depth that
+/// every pixel's ray has where the rim is cut: at every crossing of the stop, and at the surface
+/// whose clear radius cuts most; at a corner the product. Where the last crossing's Fresnel number
+/// is small, the whole mask propagated, its dirt included. Each profile is the spectrum's, at each
+/// wavelength's own Fresnel number, and takes from a ghost in all as much as it gives.
+///
+/// Left as they are: rims whose fringes would be finer than a pixel or than what the picture's
+/// size misplaces, or that are too close to their focus (below `least_propagated`); and of a whole
+/// picture's ghosts those whose fringes change least, as long as all that they would change is
+/// less than a quarter of its tolerance. Ghosts in the order of `ghosts`; nothing when stopped.
+std::optional<std::vector<RungMesh>> ringing_of(const FlareScene& scene,
+                                                const FlareRequest& request,
+                                                const GhostPlanner& planner,
+                                                const std::vector<ProbedGhost>& ghosts,
+                                                const std::stop_token& stop);
 
-/// Fringes narrower than this are not drawn: a pixel's mean is what the picture has already.
-inline constexpr double least_fringe_px = 1.0;
+/// Of one ghost, drawn at its plan's level, for those who draw ghosts one by one. Empty where what
+/// its fringes change is less than an equal share of what may be left out of a layer of this light
+/// and so many ghosts.
+RungMesh ringing_of(const FlareScene& scene, const FlareRequest& request,
+                    const GhostPlanner& planner, const ProbedGhost& ghost, double layer_flux_mm2,
+                    std::size_t ghosts, const std::stop_token& stop);
 
-/// Ghosts among `paths` whose fringes show at a picture's size.
-std::vector<bool> shows_fringes(const OpticalSystem& system, const std::vector<GhostPath>& paths,
-                                double pitch_mm);
+/// Adds that to the levels of a picture that is not finished. False when stopped.
+template <int C>
+bool draw_ringing(const std::vector<RungMesh>& rung, const PixelFrame& frame, unsigned threads,
+                  const std::stop_token& stop, LevelPictures<C>& picture);
 
-/// Adds to a picture what diffraction at the stop changes of its ghosts: along the rim that the
-/// last stop crossing cuts, irradiance × (the straight edge's profile − 1) inside and × the profile
-/// outside, at the depth in stop coordinates that every pixel's ray has; for a corner the product
-/// of its two edges'; where the Fresnel number is small, the whole mask propagated, its dirt
-/// included. Each profile is the spectrum's, at each wavelength's own Fresnel number, and takes
-/// from a ghost in all as much as it gives. Ghosts whose fringes would be finer than a pixel, those
-/// that are too close to their focus (below `least_propagated`), and rims cut by other surfaces are
-/// left as they are. Fills FlareImage::ringing and times.ringing_ms. False when stopped.
+/// Both, for a picture that is finished, whose plan, if it has one, says what is drawn. Fills
+/// FlareImage::ringing and times.ringing_ms. False when stopped.
 bool add_ringing(const FlareScene& scene, const FlareRequest& request, const std::stop_token& stop,
                  FlareImage& image);
 

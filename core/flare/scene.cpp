@@ -27,6 +27,14 @@ double half_field_deg(const Prescription& configured) {
     return unknown_deg;
 }
 
+std::vector<LightDirection> other_lights(const Scene& scene) {
+    std::vector<LightDirection> lights;
+    for (std::size_t k = 0; k < scene.lights.size(); ++k)
+        if (k != scene.active_light && scene.lights[k].on)
+            lights.push_back(scene.lights[k].direction);
+    return lights;
+}
+
 Scene default_scene(const Prescription& lens) {
     // Well inside the picture's short side, where most of the flare is seen with its light.
     Scene scene;

@@ -53,6 +53,9 @@ inline constexpr std::size_t most_lights = 32;
 /// picture whose plan says all about it.
 bool has_plain_ghosts(const Scene& scene);
 
+/// Where the lights are that are on, but for the active one.
+std::vector<LightDirection> other_lights(const Scene& scene);
+
 /// A light inside the picture, off centre.
 Scene default_scene(const Prescription& lens);
 

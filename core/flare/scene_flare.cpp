@@ -2,56 +2,54 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <numeric>
+#include <iterator>
 #include <utility>
 
-#include "core/flare/draw_picture.h"
+#include "core/flare/fold_ghosts.h"
+#include "core/flare/glare_spread.h"
+#include "core/flare/probe_all.h"
+#include "core/flare/veil_picture.h"
 #include "core/optics/paraxial.h"
 #include "core/units.h"
 
 namespace ghostlight {
 namespace {
 
-/// Ghosts whose kernel is narrower than this share of the sensor's width are always drawn: people
-/// see their shapes, and the series would need many orders.
-constexpr double narrowest_folded = 1.0 / 40.0;
-
 /// Patches across the pattern where a picture has to be sampled.
 constexpr int sampled_patches = 5;
 
-/// The ghosts of one light that are drawn, and the moments of the others.
-struct Folded {
-    std::vector<GhostPath> drawn;
-    std::vector<GhostSpot> moments;
-    bool is_any() const { return !moments.empty(); }
-};
+/// The share of a scene's ghosts that its veil may have.
+double folded_share(const Scene& scene) {
+    return scene.layers.shows(LayerKind::veil) ? scene.veil.folded_share : 0.0;
+}
 
-std::optional<Folded> fold(const SceneView& view, const FlareScene& compiled,
-                           const FlareRequest& request, const std::stop_token& stop) {
-    Folded folded;
-    const Scene& scene = view.scene;
-    if (!(scene.veil.folded_share > 0.0) || !scene.layers.shows(LayerKind::veil)) return folded;
-    const auto moments = ghost_spots(compiled, compiled.ghosts, request, stop);
-    if (!moments) return std::nullopt;
-    const auto chosen = foldable(*moments, scene.veil.folded_share, view.lens.sensor.width_mm,
-                                 view.lens.sensor.height_mm);
-    std::vector<char> is_folded(moments->size(), 0);
-    for (const std::size_t g : chosen) is_folded[g] = 1;
-    for (std::size_t g = 0; g < moments->size(); ++g) {
-        if (!is_folded[g]) {
-            folded.drawn.push_back(compiled.ghosts[g]);
-            continue;
-        }
-        const GhostLook look = look_of(scene.artistic, compiled.ghosts[g]);
-        if (!look.on) continue;
-        GhostSpot ghost = (*moments)[g];
-        for (std::size_t c = 0; c < 4; ++c) ghost.flux_mm2[c] *= look.gain[c];
-        ghost.x_mm += look.offset_x_mm;
-        ghost.y_mm += look.offset_y_mm;
-        folded.moments.push_back(ghost);
+/// As an artist has them.
+std::vector<GhostSpot> looks_of(const Artistic& artistic, const FlarePlan& plan) {
+    std::vector<GhostSpot> spots;
+    for (const PlannedGhost& ghost : plan.ghosts) {
+        const GhostLook look = look_of(artistic, ghost.path);
+        if (ghost.fate != GhostFate::folded || !look.on) continue;
+        spots.push_back(ghost.spot);
+        for (std::size_t c = 0; c < 4; ++c) spots.back().flux_mm2[c] *= look.gain[c];
+        spots.back().x_mm += look.offset_x_mm;
+        spots.back().y_mm += look.offset_y_mm;
     }
-    return folded;
+    return spots;
+}
+
+/// Only that part of a plan that is of ghosts to be folded, for those that draw without one.
+std::optional<FlarePlan> folded_ahead(const FlareScene& compiled, const FlareRequest& request,
+                                      const std::stop_token& stop) {
+    const OpticalSystem& system = compiled.system();
+    const PixelFrame frame =
+        pixel_frame(system.sensor_width_mm, system.sensor_height_mm, request.width_px);
+    const GhostPlanner planner(compiled, request.light, frame, request.search, request.economies);
+    auto probed = probe_all(compiled, planner, request, stop);
+    if (!probed) return std::nullopt;
+    FlarePlan plan = plan_of(compiled, request, *probed);
+    std::erase_if(plan.ghosts,
+                  [](const PlannedGhost& ghost) { return ghost.fate != GhostFate::folded; });
+    return plan;
 }
 
 FlareRequest of_light(FlareRequest request, const Light& light) {
@@ -95,29 +93,34 @@ std::optional<FlareImage> ghosts_of(const SceneView& view, const Light& light,
                                     const FlareRequest& request, const std::stop_token& stop) {
     const FlareScene& compiled = view.spectra.of(view.lens, light.spectrum);
     FlareRequest one = of_light(request, light);
-    const auto folded = fold(view, compiled, one, stop);
-    if (!folded) return std::nullopt;
-    if (folded->is_any()) one.only = folded->drawn;
+    one.folded_share = folded_share(view.scene);
     const LightPattern pattern = view.pattern_of(light.size);
     const bool planned = request.method == FlareMethod::planned &&
                          can_be_planned(compiled.system(), light.direction);
     const Artistic& artistic = view.scene.artistic;
     std::optional<FlareImage> image;
-    if (!planned) {
-        image = engine_image(view, one, pattern, compiled.ghosts, stop);
-    } else if (pattern.is_point() && artistic.is_neutral()) {
+    if (planned && pattern.is_point() && artistic.is_neutral()) {
         image = view.draw(compiled, one, stop);
-    } else {
-        image = render_extended(compiled, one, pattern, artistic, stop);
+        if (image) image->folded = folded_spots(image->plan);
+        return image;
     }
-    if (image && folded->is_any())
-        for (const GhostPath& path : compiled.ghosts)
-            if (std::ranges::find(folded->drawn, path) == folded->drawn.end()) {
-                PlannedGhost ghost;
-                ghost.path = path;
-                ghost.fate = GhostFate::folded;
-                image->plan.ghosts.push_back(std::move(ghost));
-            }
+    std::optional<FlarePlan> ahead;
+    if (one.folded_share > 0.0) {
+        ahead = folded_ahead(compiled, one, stop);
+        if (!ahead) return std::nullopt;
+        one.folded_share = 0.0;
+        one.only.clear();
+        for (const GhostPath& path : request.only.empty() ? compiled.ghosts : request.only)
+            if (std::ranges::find(ahead->ghosts, path, &PlannedGhost::path) == ahead->ghosts.end())
+                one.only.push_back(path);
+    }
+    image = planned ? render_extended(compiled, one, pattern, artistic, stop)
+                    : engine_image(view, one, pattern, compiled.ghosts, stop);
+    if (image && ahead) {
+        image->folded = looks_of(artistic, *ahead);
+        image->plan.folded_mm2 = ahead->folded_mm2;
+        std::ranges::move(ahead->ghosts, std::back_inserter(image->plan.ghosts));
+    }
     return image;
 }
 
@@ -227,79 +230,72 @@ std::optional<FlareImage> starburst_layer(const SceneView& view, const FlareRequ
     return sum;
 }
 
-std::vector<std::size_t> foldable(std::span<const GhostSpot> ghosts, double share,
-                                  double sensor_width_mm, double sensor_height_mm) {
-    struct Candidate {
-        std::size_t index;
-        double irradiance;
-    };
-    std::vector<Candidate> candidates;
-    double all = 0.0;
-    for (std::size_t g = 0; g < ghosts.size(); ++g) {
-        const GhostSpot& ghost = ghosts[g];
-        if (!reaches_sensor(ghost, sensor_width_mm, sensor_height_mm)) continue;
-        all += ghost.flux();
-        const auto [narrow, broad] = ghost.sigmas_mm();
-        if (narrow >= narrowest_folded * sensor_width_mm)
-            candidates.push_back({g, ghost.flux() / (4.0 * std::numbers::pi * narrow * broad)});
-    }
-    std::ranges::stable_sort(candidates, {}, &Candidate::irradiance);
-    std::vector<std::size_t> chosen;
-    double sum = 0.0;
-    for (const Candidate& candidate : candidates) {
-        sum += ghosts[candidate.index].flux();
-        if (sum > share * all) break;
-        chosen.push_back(candidate.index);
-    }
-    return chosen;
-}
+namespace {
 
-std::optional<FlareImage> veil_layer(const SceneView& view, const FlareRequest& request,
-                                     std::stop_token stop) {
-    FlareImage image = black_image(view.lens.sensor, request.width_px);
+/// What a scene's veil has of its ghosts, lights together, where no ghosts' layer tells.
+std::optional<std::vector<GhostSpot>> folded_anew(const SceneView& view,
+                                                  const FlareRequest& request,
+                                                  const std::stop_token& stop) {
     const Scene& scene = view.scene;
-    const Sensor& sensor = view.lens.sensor;
     std::vector<GhostSpot> all;
     for (const Light& light : scene.lights) {
         if (!light.on) continue;
         const FlareScene& compiled = view.spectra.of(view.lens, light.spectrum);
-        const FlareRequest one = of_light(request, light);
+        FlareRequest one = of_light(request, light);
+        one.folded_share = folded_share(scene);
+        const auto plan = folded_ahead(compiled, one, stop);
+        if (!plan) return std::nullopt;
         const std::array<double, 4> gain = gain_of(scene, light);
-        const auto brightened = [&](GhostSpot ghost) {
+        for (GhostSpot ghost : looks_of(scene.artistic, *plan)) {
             for (std::size_t c = 0; c < 4; ++c) ghost.flux_mm2[c] *= gain[c];
-            return ghost;
-        };
-        const auto folded = fold(view, compiled, one, stop);
-        if (!folded) return std::nullopt;
-        for (const GhostSpot& ghost : folded->moments)
-            if (reaches_sensor(ghost, sensor.width_mm, sensor.height_mm))
-                all.push_back(brightened(ghost));
-        if (scene.veil.spread.share > 0.0) {
-            const auto direct = ghost_spots(compiled, {GhostPath{}}, one, stop);
-            if (!direct) return std::nullopt;
-            const GhostSpot spot = brightened(direct->front());
-            const double efl_mm = first_order(compiled.system()).efl_mm;
-            add_glare_spread(scene.veil.spread, spot.flux_mm2, spot.x_mm, spot.y_mm, efl_mm,
-                             request.threads, image);
-            image.flux_mm2 += scene.veil.spread.share * spot.flux();
+            all.push_back(ghost);
         }
     }
-    if (!all.empty()) {
-        const VeilSize size = veil_size(all, sensor.width_mm, sensor.height_mm);
-        VeilSeries series(size.period_mm, size.orders);
-        double narrowest_mm = size.period_mm;
-        for (const GhostSpot& ghost : all) {
-            series.add(ghost, scene.veil.kernel);
-            image.flux_mm2 += ghost.flux();
-            narrowest_mm = std::min(narrowest_mm, ghost.sigmas_mm()[0]);
-        }
-        const PixelFrame frame = pixel_frame(sensor.width_mm, sensor.height_mm, request.width_px);
-        const auto values = veil_picture(series, narrowest_mm, frame, request.threads);
-        for (std::size_t i = 0; i < image.irradiance.size(); ++i) {
-            for (std::size_t c = 0; c < 3; ++c) image.rgb[3 * i + c] += values[4 * i + c];
-            // The series of an ellipse rings about zero where there is no light.
-            image.irradiance[i] += std::max(0.0F, values[4 * i + 3]);
-        }
+    return all;
+}
+
+void draw_folded(const Scene& scene, const Sensor& sensor, std::vector<GhostSpot> ghosts,
+                 const FlareRequest& request, FlareImage& image) {
+    std::erase_if(ghosts, [&](const GhostSpot& ghost) {
+        return !reaches_sensor(ghost, sensor.width_mm, sensor.height_mm);
+    });
+    if (ghosts.empty()) return;
+    const VeilSize size = veil_size(ghosts, sensor.width_mm, sensor.height_mm);
+    VeilSeries series(size.period_mm, size.orders);
+    double narrowest_mm = size.period_mm;
+    for (const GhostSpot& ghost : ghosts) {
+        series.add(ghost, scene.veil.kernel);
+        image.flux_mm2 += ghost.flux();
+        narrowest_mm = std::min(narrowest_mm, ghost.sigmas_mm()[0]);
+    }
+    draw_veil(series, narrowest_mm,
+              pixel_frame(sensor.width_mm, sensor.height_mm, request.width_px), request.threads,
+              image);
+}
+
+}  // namespace
+
+std::optional<FlareImage> veil_layer(const SceneView& view, const FlareRequest& request,
+                                     std::stop_token stop, const FlareImage* ghosts) {
+    FlareImage image = black_image(view.lens.sensor, request.width_px);
+    const Scene& scene = view.scene;
+    if (folded_share(scene) > 0.0) {
+        auto folded =
+            ghosts != nullptr ? std::optional(ghosts->folded) : folded_anew(view, request, stop);
+        if (!folded) return std::nullopt;
+        draw_folded(scene, view.lens.sensor, std::move(*folded), request, image);
+    }
+    for (const Light& light : scene.lights) {
+        if (!light.on || !(scene.veil.spread.share > 0.0)) continue;
+        const FlareScene& compiled = view.spectra.of(view.lens, light.spectrum);
+        const auto direct = ghost_spots(compiled, {GhostPath{}}, of_light(request, light), stop);
+        if (!direct) return std::nullopt;
+        GhostSpot spot = direct->front();
+        const std::array<double, 4> gain = gain_of(scene, light);
+        for (std::size_t c = 0; c < 4; ++c) spot.flux_mm2[c] *= gain[c];
+        add_glare_spread(scene.veil.spread, spot.flux_mm2, spot.x_mm, spot.y_mm,
+                         first_order(compiled.system()).efl_mm, request.threads, image);
+        image.flux_mm2 += scene.veil.spread.share * spot.flux();
     }
     measure(image);
     return image;

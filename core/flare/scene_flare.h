@@ -53,9 +53,10 @@ std::optional<FlareImage> ghosts_layer(const SceneView& view, const FlareRequest
                                        std::stop_token stop = {});
 
 /// The scene's veil: ghosts folded away, as one series, and the lens's scatter about each light's
-/// image. Black when neither is asked for. Nothing when stopped.
+/// image. Black when neither is asked for. `ghosts`: the scene's own layer, if it is there, which
+/// knows what it folded; without it all ghosts are probed again. Nothing when stopped.
 std::optional<FlareImage> veil_layer(const SceneView& view, const FlareRequest& request,
-                                     std::stop_token stop = {});
+                                     std::stop_token stop = {}, const FlareImage* ghosts = nullptr);
 
 /// What draws the starburst of a point light on a sensor of some size.
 using DrawStarburst = std::function<std::optional<FlareImage>(
@@ -66,12 +67,6 @@ using DrawStarburst = std::function<std::optional<FlareImage>(
 /// stopped.
 std::optional<FlareImage> starburst_layer(const SceneView& view, const FlareRequest& request,
                                           const DrawStarburst& draw, std::stop_token stop = {});
-
-/// Which ghosts may be folded into the veil: those of the least irradiance whose kernels are broad
-/// enough, together with at most `share` of the light of all that reach the sensor. Indices into
-/// `ghosts`.
-std::vector<std::size_t> foldable(std::span<const GhostSpot> ghosts, double share,
-                                  double sensor_width_mm, double sensor_height_mm);
 
 /// A picture of a sensor without light.
 FlareImage black_image(const Sensor& sensor, int width_px);

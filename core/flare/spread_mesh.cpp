@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "core/flare/draw_rung.h"
 #include "core/flare/picture_levels.h"
 #include "core/units.h"
 
@@ -69,6 +71,24 @@ void draw(const ColorMesh<color_channels>& mesh, Spot& spot) {
     }
 }
 
+/// Adds a ghost's fringes to a spot that holds the ghost.
+void add_rung(RungMesh rung, const RasterSize& whole, double dx_px, double dy_px,
+              const std::array<double, 4>& gain, Spot& spot) {
+    for (std::size_t c = 0; c < rim_channels; ++c) {
+        rung.color[c] *= static_cast<float>(gain[c]);
+        for (auto& share : rung.mask_shares) share[c] *= static_cast<float>(gain[c]);
+    }
+    rung.rim_px = 1.0 / whole.scale;
+    RungCanvas canvas = canvas_of(spot.values, rim_channels, whole);
+    canvas.left_px = spot.left - dx_px * whole.scale;
+    canvas.bottom_px = spot.bottom - dy_px * whole.scale;
+    canvas.size.width_px = spot.width;
+    canvas.size.height_px = spot.height;
+    std::vector<std::uint32_t> all(rung.triangles.size());
+    std::iota(all.begin(), all.end(), std::uint32_t{0});
+    draw_rung(rung, all, canvas, 0, spot.height);
+}
+
 }  // namespace
 
 SpreadKernel spread_kernel(const LightPattern& pattern, const LightDirection& light,
@@ -125,8 +145,8 @@ std::array<double, 2> spread_px(const LightPattern& pattern, const GhostShift& s
     return {std::min(along, across), std::max(along, across)};
 }
 
-Spot draw_spot(const ColorMesh<color_channels>& mesh, const PixelFrame& frame, int level,
-               double dx_px, double dy_px, const std::array<double, 4>& gain,
+Spot draw_spot(const ColorMesh<color_channels>& mesh, const RungMesh& rung, const PixelFrame& frame,
+               int level, double dx_px, double dy_px, const std::array<double, 4>& gain,
                const SpreadKernel& kernel) {
     const RasterSize size = level_size(frame, level);
     Extent x, y;
@@ -140,6 +160,11 @@ Spot draw_spot(const ColorMesh<color_channels>& mesh, const PixelFrame& frame, i
         x.take(point.x);
         y.take(point.y);
     }
+    for (const RungTriangle& triangle : rung.triangles)
+        for (std::size_t n = 0; n < 3; ++n) {
+            x.take(static_cast<double>(triangle.column[n]));
+            y.take(static_cast<double>(triangle.row[n]));
+        }
     Spot spot;
     spot.level = level;
     if (x.low > x.high) return spot;
@@ -156,6 +181,7 @@ Spot draw_spot(const ColorMesh<color_channels>& mesh, const PixelFrame& frame, i
     draw(moved(mesh, dx_px + (size.margin_px - spot.left) / size.scale,
                dy_px + (size.margin_px - spot.bottom) / size.scale, gain),
          spot);
+    if (!rung.empty()) add_rung(rung, size, dx_px, dy_px, gain, spot);
     fold_spot(kernel, spot);
     return spot;
 }

@@ -5,6 +5,7 @@
 
 #include "core/flare/color_mesh.h"
 #include "core/flare/light_pattern.h"
+#include "core/flare/rung_mesh.h"
 
 namespace ghostlight {
 
@@ -33,10 +34,10 @@ struct Spot {
     std::vector<float> values;                        ///< 4 a pixel
 };
 
-/// Draws a mesh alone, moved by (dx, dy) full-size pixels and times `gain` in each channel, and
-/// folds it with a kernel of its level.
-Spot draw_spot(const ColorMesh<color_channels>& mesh, const PixelFrame& frame, int level,
-               double dx_px, double dy_px, const std::array<double, 4>& gain,
+/// Draws a mesh alone and what its fringes change, moved by (dx, dy) full-size pixels and times
+/// `gain` in each channel, and folds it with a kernel of its level.
+Spot draw_spot(const ColorMesh<color_channels>& mesh, const RungMesh& rung, const PixelFrame& frame,
+               int level, double dx_px, double dy_px, const std::array<double, 4>& gain,
                const SpreadKernel& kernel);
 
 /// Folds a spot with a kernel of its level; it grows by the kernel's reach.

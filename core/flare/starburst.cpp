@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <numeric>
 
 #include "core/elapsed.h"
 #include "core/flare/draw_picture.h"
@@ -129,26 +130,20 @@ std::optional<Model> model_of(const Prescription& lens, const StarburstRequest& 
     return model;
 }
 
-/// Splits the channels of a drawn pattern.
-void fill(const std::vector<float>& values, const PixelFrame& frame, unsigned threads,
-          FlareImage& image) {
-    constexpr std::size_t c = StarburstTable::channels;
-    const auto width = static_cast<std::size_t>(frame.width_px);
-    const auto height = static_cast<std::size_t>(frame.height_px);
-    image.rgb.resize(3 * width * height);
-    image.irradiance.resize(width * height);
-    std::vector<double> row_sums(height, 0.0);
-    parallel_for(height, threads, {}, [&](std::size_t row) {
-        double sum = 0.0;
-        for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
-            for (std::size_t k = 0; k < 3; ++k) image.rgb[3 * i + k] = values[c * i + k];
-            image.irradiance[i] = values[c * i + c - 1];
-            sum += static_cast<double>(image.irradiance[i]);
-        }
-        row_sums[row] = sum;
-    });
-    image.flux_on_sensor_mm2 = 0.0;
-    for (const double sum : row_sums) image.flux_on_sensor_mm2 += sum * frame.pixel_area_mm2();
+void darken(const PixelFrame& frame, FlareImage& image) {
+    const auto count =
+        static_cast<std::size_t>(frame.width_px) * static_cast<std::size_t>(frame.height_px);
+    image.rgb.assign(3 * count, 0.0F);
+    image.irradiance.assign(count, 0.0F);
+}
+
+/// Row by row, so that the sum does not depend on threads.
+double flux_on_sensor_mm2(const FlareImage& image, const PixelFrame& frame) {
+    double sum = 0.0;
+    const auto width = static_cast<std::ptrdiff_t>(frame.width_px);
+    for (auto row = image.irradiance.begin(); row != image.irradiance.end(); row += width)
+        sum += std::accumulate(row, row + width, 0.0);
+    return sum * frame.pixel_area_mm2();
 }
 
 }  // namespace
@@ -164,17 +159,14 @@ std::optional<FlareImage> render_starburst(const Prescription& lens,
     if (!model) return std::nullopt;
     image.times.trace_ms = ms_since(began);
     const auto drawn = Clock::now();
-    std::vector<float> values;
     if (model->table) {
-        if (!model->table->draw(model->placement, frame, request.threads, stop, values))
+        if (!model->table->draw(model->placement, frame, request.threads, stop, image))
             return std::nullopt;
         image.flux_mm2 = model->table->flux_mm2();
+        image.flux_on_sensor_mm2 = flux_on_sensor_mm2(image, frame);
     } else {
-        values.assign(static_cast<std::size_t>(frame.width_px) *
-                          static_cast<std::size_t>(frame.height_px) * StarburstTable::channels,
-                      0.0F);
+        darken(frame, image);
     }
-    fill(values, frame, request.threads, image);
     image.times.raster_ms = ms_since(drawn);
     image.times.total_ms = ms_since(began);
     return image;
@@ -222,18 +214,15 @@ const FlareImage& MovingStarburst::frame(const LightDirection& light) {
         kept->frame.height_px = 2 * frame.height_px + 1;
         kept->frame.left_mm = -0.5 * kept->frame.width_px * frame.pitch_mm;
         kept->frame.bottom_mm = -0.5 * kept->frame.height_px * frame.pitch_mm;
-        std::vector<float> values(static_cast<std::size_t>(kept->frame.width_px) *
-                                      static_cast<std::size_t>(kept->frame.height_px) *
-                                      StarburstTable::channels,
-                                  0.0F);
         FlareImage picture = empty_image(system_, kept->frame);
         if (model->table) {
             StarburstTable::Placement placement = model->placement;
             placement.x_mm = placement.y_mm = 0.0;
-            model->table->draw(placement, kept->frame, request.threads, {}, values);
+            model->table->draw(placement, kept->frame, request.threads, {}, picture);
             kept->flux_mm2 = model->table->flux_mm2();
+        } else {
+            darken(kept->frame, picture);
         }
-        fill(values, kept->frame, request.threads, picture);
         kept->rgb = std::move(picture.rgb);
         kept->irradiance = std::move(picture.irradiance);
         kept_.push_back(std::move(kept));

@@ -58,9 +58,9 @@ class StarburstTable {
         double sagittal_stretch = 1.0, tangential_stretch = 1.0;
         double gain = 1.0;
     };
-    /// Draws into `values`, `channels` a pixel, row by row from the lowest. False when stopped.
+    /// Draws rgb and irradiance of the frame's size. False when stopped.
     bool draw(const Placement& placement, const PixelFrame& frame, unsigned threads,
-              const std::stop_token& stop, std::vector<float>& values) const;
+              const std::stop_token& stop, FlareImage& image) const;
 
     double flux_mm2() const { return flux_[channels - 1]; }
 
@@ -81,8 +81,10 @@ class StarburstTable {
     Color flux_between(int ring, double from_sector, double to_sector) const;
     Color density(double ring, double from_sector, double to_sector) const;
     Color mean_at(double radius_mm, double turn_rad, double pitch_mm) const;
+    void add_density(float ring, float from_sector, float to_sector, float scale,
+                     float (&color)[channels]) const;
     void draw_core(const Placement& placement, const PixelFrame& frame, double core_mm,
-                   std::vector<float>& values) const;
+                   FlareImage& image) const;
 };
 
 /// Starbursts of one lens and spectrum while its light moves: patterns at a few fields are kept,

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "core/flare/starburst.h"
+#include "core/flare/starburst_kernel.h"
 #include "core/parallel.h"
 #include "core/units.h"
 
@@ -19,6 +20,8 @@ constexpr double core_samples = 12.0;
 /// So much more of a blur than its rim is taken for the core.
 constexpr double around_blur = 1.3;
 constexpr int rows_together = 16;
+/// Breadth of a ring over its radius.
+constexpr double ring_ratio = std::numbers::ln2 / PolarPattern::rings_per_octave;
 
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 
@@ -80,18 +83,23 @@ StarburstTable::StarburstTable(const std::vector<PolarPattern>& patterns,
     const double smoothed = std::clamp(
         rad_from_deg(smoothing_deg) / patterns.front().span_rad() * sectors, 0.0, sectors * 1.0);
     parallel_for(idx(rings_), threads, {}, [&](std::size_t ring) {
-        std::vector<Color> own(sectors, Color{});
+        std::vector<const float*> taps;
+        std::vector<float> light;
         for (const Shift& shift : shifts) {
             const int from = static_cast<int>(ring) - shift.rings;
             if (from < 0) continue;
             for (std::size_t p = 0; p < patterns.size(); ++p) {
                 if (from >= patterns[p].rings || shift.weight[p] == Color{}) continue;
-                const float* share = &patterns[p].share[idx(from) * sectors];
-                const Color weight = shift.weight[p];
-                for (std::size_t s = 0; s < sectors; ++s)
-                    for (std::size_t c = 0; c < channels; ++c) own[s][c] += share[s] * weight[c];
+                taps.push_back(&patterns[p].share[idx(from) * sectors]);
+                light.insert(light.end(), shift.weight[p].begin(), shift.weight[p].end());
             }
         }
+        std::vector<float> planes(channels * sectors);
+        const RingMixView mix{taps.data(), light.data(), taps.size(), sectors, planes.data()};
+        GHOSTLIGHT_DISPATCH(mix_rings, mix);
+        std::vector<Color> own(sectors);
+        for (std::size_t s = 0; s < sectors; ++s)
+            for (std::size_t c = 0; c < channels; ++c) own[s][c] = planes[c * sectors + s];
         Color* below = &below_[ring * (sectors + 1)];
         for (std::size_t s = 0; s < sectors; ++s)
             for (std::size_t c = 0; c < channels; ++c) below[s + 1][c] = below[s][c] + own[s][c];
@@ -154,7 +162,6 @@ StarburstTable::Color StarburstTable::mean_at(double radius, double turn_rad,
     const double half = std::max(0.5, 0.5 * pitch_mm / radius * per_rad);
     const double inner = radius - 0.5 * pitch_mm, outer = radius + 0.5 * pitch_mm;
     // Where a pixel spans less than a ring, between the middles of two.
-    constexpr double ring_ratio = std::numbers::ln2 / PolarPattern::rings_per_octave;
     if (pitch_mm < ring_ratio * radius)
         return density(ring_of(radius) - 0.5, sector - half, sector + half);
     const double first = ring_of(inner), last = ring_of(outer);
@@ -173,7 +180,7 @@ StarburstTable::Color StarburstTable::mean_at(double radius, double turn_rad,
 }
 
 void StarburstTable::draw_core(const Placement& placement, const PixelFrame& frame, double core_mm,
-                               std::vector<float>& values) const {
+                               FlareImage& image) const {
     const double cos_t = std::cos(placement.tangential_rad),
                  sin_t = std::sin(placement.tangential_rad);
     auto put = [&](double radius, double turn, const double(&flux)[channels]) {
@@ -185,11 +192,12 @@ void StarburstTable::draw_core(const Placement& placement, const PixelFrame& fra
         const double row = frame.row(placement.y_mm + sin_t * along + cos_t * across);
         if (!(column >= 0.0 && column < frame.width_px && row >= 0.0 && row < frame.height_px))
             return;
-        float* pixel = &values[(static_cast<std::size_t>(row) * idx(frame.width_px) +
-                                static_cast<std::size_t>(column)) *
-                               channels];
-        for (std::size_t c = 0; c < channels; ++c)
-            pixel[c] += static_cast<float>(flux[c] * placement.gain / frame.pixel_area_mm2());
+        const std::size_t pixel =
+            static_cast<std::size_t>(row) * idx(frame.width_px) + static_cast<std::size_t>(column);
+        const double share = placement.gain / frame.pixel_area_mm2();
+        for (std::size_t c = 0; c < 3; ++c)
+            image.rgb[3 * pixel + c] += static_cast<float>(flux[c] * share);
+        image.irradiance[pixel] += static_cast<float>(flux[3] * share);
     };
     double centre[channels];
     std::ranges::copy(inside_, centre);
@@ -221,10 +229,30 @@ void StarburstTable::draw_core(const Placement& placement, const PixelFrame& fra
     }
 }
 
+/// density() × scale where neither rings nor sectors end.
+void StarburstTable::add_density(float ring, float from, float to, float scale,
+                                 float (&color)[channels]) const {
+    const auto low = static_cast<std::size_t>(ring);
+    const auto first = static_cast<std::size_t>(from), last = static_cast<std::size_t>(to);
+    const float ring_part = ring - static_cast<float>(low);
+    const float first_part = from - static_cast<float>(first);
+    const float last_part = to - static_cast<float>(last);
+    for (const std::size_t r : {low, low + 1}) {
+        const Color* below = &below_[r * (sectors + 1)];
+        const float share = (r == low ? 1.0F - ring_part : ring_part) * scale *
+                            static_cast<float>(sectors_per_mm2_[r]) / (to - from);
+        for (std::size_t c = 0; c < channels; ++c)
+            color[c] +=
+                share * (below[last][c] + last_part * (below[last + 1][c] - below[last][c]) -
+                         below[first][c] - first_part * (below[first + 1][c] - below[first][c]));
+    }
+}
+
 bool StarburstTable::draw(const Placement& placement, const PixelFrame& frame, unsigned threads,
-                          const std::stop_token& stop, std::vector<float>& values) const {
+                          const std::stop_token& stop, FlareImage& image) const {
     const auto width = idx(frame.width_px), height = idx(frame.height_px);
-    values.assign(width * height * channels, 0.0F);
+    image.rgb.resize(3 * width * height);
+    image.irradiance.resize(width * height);
     const double cos_t = std::cos(placement.tangential_rad),
                  sin_t = std::sin(placement.tangential_rad);
     const double stretch = placement.sagittal_stretch * placement.tangential_stretch;
@@ -232,26 +260,53 @@ bool StarburstTable::draw(const Placement& placement, const PixelFrame& frame, u
     const double pitch = frame.pitch_mm / std::sqrt(stretch);
     const double core_mm = std::max(core_px * pitch, around_blur * blur_mm_);
     const auto scale = static_cast<float>(placement.gain / stretch);
-    const double last_mm = edge_mm_.back();
-    const bool finished = parallel_for(
-        (height + rows_together - 1) / rows_together, threads, stop, [&](std::size_t block) {
-            for (std::size_t row = block * rows_together;
-                 row < std::min(height, (block + 1) * rows_together); ++row)
-                for (std::size_t column = 0; column < width; ++column) {
-                    auto own = [&](double i, double j) {
-                        const double x = frame.left_mm + i * frame.pitch_mm - placement.x_mm;
-                        const double y = frame.bottom_mm + j * frame.pitch_mm - placement.y_mm;
-                        const double along = (cos_t * x + sin_t * y) / placement.tangential_stretch;
-                        const double across = (cos_t * y - sin_t * x) / placement.sagittal_stretch;
-                        return glm::dvec2(cos_t * along - sin_t * across,
-                                          sin_t * along + cos_t * across);
-                    };
+    const double per_rad = sectors / (half_turn_ ? pi : 2.0 * pi);
+    auto own = [&](double i, double j) {
+        const double x = frame.left_mm + i * frame.pitch_mm - placement.x_mm;
+        const double y = frame.bottom_mm + j * frame.pitch_mm - placement.y_mm;
+        const double along = (cos_t * x + sin_t * y) / placement.tangential_stretch;
+        const double across = (cos_t * y - sin_t * x) / placement.sagittal_stretch;
+        return glm::dvec2(cos_t * along - sin_t * across, sin_t * along + cos_t * across);
+    };
+    const auto square = [](double length) { return static_cast<float>(length * length); };
+    // Where a pixel spans less than a ring: between the middles of two, a look-up.
+    const float plain_from = square(std::max(core_mm + pitch, 1.01 * pitch / ring_ratio));
+    const float last = square(edge_mm_.back()), begin = square(std::max(0.0, core_mm - pitch));
+    const auto half_pixel = static_cast<float>(0.5 * pitch * per_rad);
+    auto draw_row = [&](std::size_t row, std::vector<float>& lines) {
+        const std::size_t count = lines.size() / 3;
+        const double j = static_cast<double>(row) + 0.5;
+        const glm::dvec2 first = own(0.5, j), step = own(1.5, j) - first;
+        const PolarRowView view{
+            static_cast<float>(first.x),
+            static_cast<float>(first.y),
+            static_cast<float>(step.x),
+            static_cast<float>(step.y),
+            PolarPattern::rings_per_octave,
+            static_cast<float>(PolarPattern::rings_per_octave * std::log2(first_radius_mm_) + 0.5),
+            static_cast<float>(per_rad),
+            static_cast<float>(turned_rad_),
+            static_cast<float>(half_turn_ ? pi : 2.0 * pi),
+            count,
+            lines.data(),
+            lines.data() + count,
+            lines.data() + 2 * count};
+        GHOSTLIGHT_DISPATCH(polar_row, view);
+        for (std::size_t column = 0; column < width; ++column) {
+            float color[channels] = {};
+            const float r2 = view.square[column];
+            if (r2 >= begin && r2 <= last) {
+                const float ring = view.ring[column];
+                const float half = std::max(0.5F, half_pixel / std::sqrt(r2));
+                const float from = view.sector[column] - half, to = view.sector[column] + half;
+                if (r2 > plain_from && ring >= 0.0F && ring < static_cast<float>(rings_ - 1) &&
+                    from >= 0.0F && to < static_cast<float>(sectors)) {
+                    add_density(ring, from, to, scale, color);
+                } else {
                     const double i = static_cast<double>(column) + 0.5;
-                    const double j = static_cast<double>(row) + 0.5;
                     const glm::dvec2 at = own(i, j);
                     const double radius = std::sqrt(at.x * at.x + at.y * at.y);
-                    if (radius < core_mm - pitch || radius > last_mm) continue;
-                    float share = scale;
+                    double share = 1.0;
                     if (radius < core_mm + pitch) {
                         // The core ends within this pixel.
                         constexpr int parts = 8;
@@ -261,16 +316,31 @@ bool StarburstTable::draw(const Placement& placement, const PixelFrame& frame, u
                                                      j - 0.5 + (a / parts + 0.5) / parts);
                             outside += std::hypot(p.x, p.y) >= core_mm ? 1 : 0;
                         }
-                        share *= static_cast<float>(outside) / (parts * parts);
-                        if (outside == 0) continue;
+                        share = static_cast<double>(outside) / (parts * parts);
                     }
-                    const Color mean = mean_at(radius, std::atan2(at.y, at.x) - turned_rad_, pitch);
-                    float* pixel = &values[(row * width + column) * channels];
-                    for (std::size_t c = 0; c < channels; ++c) pixel[c] = share * mean[c];
+                    if (share > 0.0) {
+                        const Color mean =
+                            mean_at(radius, std::atan2(at.y, at.x) - turned_rad_, pitch);
+                        for (std::size_t c = 0; c < channels; ++c)
+                            color[c] = scale * static_cast<float>(share) * mean[c];
+                    }
                 }
+            }
+            const std::size_t pixel = row * width + column;
+            for (std::size_t c = 0; c < 3; ++c) image.rgb[3 * pixel + c] = color[c];
+            image.irradiance[pixel] = color[3];
+        }
+    };
+    const std::size_t padded = (width + sector_padding - 1) / sector_padding * sector_padding;
+    const bool finished = parallel_for(
+        (height + rows_together - 1) / rows_together, threads, stop, [&](std::size_t block) {
+            std::vector<float> lines(3 * padded);
+            for (std::size_t row = block * rows_together;
+                 row < std::min(height, (block + 1) * rows_together); ++row)
+                draw_row(row, lines);
         });
     if (!finished) return false;
-    draw_core(placement, frame, core_mm, values);
+    draw_core(placement, frame, core_mm, image);
     return true;
 }
 

@@ -4,8 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/flare/ghost_mesh.h"
-#include "core/flare/ghost_spot.h"
+#include "core/flare/flare_plan.h"
 
 namespace ghostlight {
 
@@ -31,7 +30,8 @@ class VeilSeries {
     /// Irradiance / E0 at a point of the sensor: linear Rec.709, irradiance.
     std::array<double, 4> at(double x_mm, double y_mm) const;
     /// The same at the points (x, y) of a grid, row by row, 4 a point: two products of matrices.
-    std::vector<float> grid(std::span<const double> x_mm, std::span<const double> y_mm) const;
+    std::vector<float> grid(std::span<const double> x_mm, std::span<const double> y_mm,
+                            unsigned threads = 1) const;
 
    private:
     double period_mm_;
@@ -52,12 +52,5 @@ VeilSize veil_size(std::span<const GhostSpot> ghosts, double sensor_width_mm,
 
 /// Whether a ghost's kernel reaches the sensor at all.
 bool reaches_sensor(const GhostSpot& ghost, double sensor_width_mm, double sensor_height_mm);
-
-/// The series as a picture: evaluated at 1/2^k of the size, as its narrowest ghost allows, and
-/// interpolated. 4 values a pixel.
-std::vector<float> veil_picture(const VeilSeries& series, double narrowest_mm,
-                                const PixelFrame& frame, unsigned threads);
-/// That k.
-int veil_level(double narrowest_mm, const PixelFrame& frame);
 
 }  // namespace ghostlight

@@ -1,6 +1,8 @@
 #include "core/ghosts/mirror_grid.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace ghostlight {
 
@@ -18,6 +20,27 @@ void lay_mirrored(MirrorGrid& grid) {
             rays.v_mm[k] = v;
         }
     }
+}
+
+void lay_other_half(MirrorGrid& grid) {
+    grid.other.keep_cosines = grid.half.keep_cosines;
+    grid.other.v_mm = grid.half.v_mm;
+    grid.other.u_mm.resize(grid.half.size());
+    std::ranges::transform(grid.half.u_mm, grid.other.u_mm.begin(), std::negate{});
+}
+
+void take_mean_of_halves(MirrorGrid& grid) {
+    Bundle<float>&half = grid.half, &other = grid.other;
+    for (std::size_t k = 0; k < half.size(); ++k) {
+        half.x_mm[k] = 0.5F * (half.x_mm[k] - other.x_mm[k]);
+        half.y_mm[k] = 0.5F * (half.y_mm[k] + other.y_mm[k]);
+        half.margin[k] = std::min(half.margin[k], other.margin[k]);
+        half.r_rel[k] = std::max(half.r_rel[k], other.r_rel[k]);
+    }
+    for (std::size_t k = 0; k < half.weight.size(); ++k)
+        half.weight[k] = 0.5F * (half.weight[k] + other.weight[k]);
+    for (std::size_t k = 0; k < half.weight_average.size(); ++k)
+        half.weight_average[k] = 0.5F * (half.weight_average[k] + other.weight_average[k]);
 }
 
 void trace_mirrored(const TracePath<float>& path, const BeamFrame& frame, Weights weights,

@@ -15,6 +15,8 @@ struct MirrorGrid {
     PupilBox box;
     int cells = 0;  ///< across, an even number
     Bundle<float> half;
+    /// Its mirror image, ray by ray, where the symmetry is not relied upon; else empty.
+    Bundle<float> other = {};
     bool is_polarised = false;  ///< its weights are there, with polarisation carried
 
     int half_side() const { return cells / 2 + 1; }
@@ -29,7 +31,11 @@ struct MirrorGrid {
 
 /// Lays the half grid.
 void lay_mirrored(MirrorGrid& grid);
-/// And traces it.
+/// Lays the other half.
+void lay_other_half(MirrorGrid& grid);
+/// Where the rays of both, traced, land on the mean, and through the narrower of their ways.
+void take_mean_of_halves(MirrorGrid& grid);
+/// Lays the half grid and traces it.
 void trace_mirrored(const TracePath<float>& path, const BeamFrame& frame, Weights weights,
                     MirrorGrid& grid);
 

@@ -10,15 +10,6 @@
 #include "core/io/html_page.h"
 
 namespace ghostlight {
-namespace {
-
-const AccuracyPoint* point_of(const AccuracyReport& report, const std::string& method,
-                              double setting) {
-    for (const AccuracyPoint& point : report.points)
-        if (point.method == method && (point.setting == setting || std::isnan(setting)))
-            return &point;
-    return nullptr;
-}
 
 std::string title_of(const AccuracyCase& one) {
     std::string title = fmt::format("{}, {:.4g}°", one.heading, one.field_deg);
@@ -26,105 +17,19 @@ std::string title_of(const AccuracyCase& one) {
     return title;
 }
 
-std::string percent(double share) {
+std::string percent_text(double share) {
     if (!std::isfinite(share)) return "–";
     return fmt::format("{:.3g}", 100.0 * share);
 }
 
-std::string point_cell(const AccuracyReport& report, const std::string& method, double setting,
-                       bool with_time) {
-    const AccuracyPoint* point = point_of(report, method, setting);
-    if (point == nullptr) return "–";
-    std::string text = (point->resolved ? "" : "< ") +
-                       percent(point->resolved ? point->errors.relative_l1
-                                               : resolved_above * report.reference_error);
-    if (with_time) text += fmt::format(" in {:.3g} ms", point->median_ms);
-    return text;
-}
-
-double median(std::vector<double> values) {
-    if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-    std::ranges::sort(values);
-    return values[values.size() / 2];
-}
-
-/// How many times longer a method takes than the plan for the same error, where both get there.
-std::string advantage(const AccuracyRun& run, const std::string& method, double error) {
-    std::vector<double> ratios;
-    std::size_t never = 0;
-    for (const AccuracyCase& one : run.cases) {
-        const double plan = time_within_ms(one.report, "planned", error);
-        const double other = time_within_ms(one.report, method, error);
-        if (!std::isfinite(plan)) continue;
-        if (std::isfinite(other))
-            ratios.push_back(other / plan);
-        else
-            ++never;
-    }
-    std::string text = ratios.empty() ? "–" : fmt::format("{:.3g} ×", median(ratios));
-    if (never > 0)
-        text += fmt::format(" (not reached in {} of {} cases)", never, never + ratios.size());
-    return text;
-}
-
-const std::vector<std::pair<std::string, std::string>>& shortcut_names() {
-    static const std::vector<std::pair<std::string, std::string>> names = {
-        {"averaged polarisation", "R and T averaged over s and p at each surface"},
-        {"reflections only", "transmissions left out too, as the 2011 shader does"},
-        {"planned, hullin-2011 coating", "that paper's coating formula"},
-        {"single precision", "everything in float"},
-    };
-    return names;
-}
-
-/// Times with each economy off over the plan's own at equal errors, medians over a lens's settings.
-std::string cost_without(const AccuracyReport& report, const std::string& method) {
-    std::vector<double> ratios;
-    for (const AccuracyPoint& point : report.points)
-        if (point.method == method && point.resolved) {
-            const double plan_ms =
-                time_for_error_ms(report.points, "planned", point.errors.relative_l1);
-            if (std::isfinite(plan_ms)) ratios.push_back(point.median_ms / plan_ms);
-        }
-    return ratios.empty() ? "–" : fmt::format("{:.2f}", median(ratios));
-}
-
-std::vector<std::string> ablations_of(const AccuracyRun& run) {
-    std::vector<std::string> methods;
-    for (const AccuracyCase& one : run.cases)
-        for (const AccuracyPoint& point : one.report.points)
-            if (point.is_ablation && std::ranges::find(methods, point.method) == methods.end())
-                methods.push_back(point.method);
-    return methods;
-}
-
-}  // namespace
-
 Table accuracy_rows(const AccuracyRun& run) {
     Table table;
-    table.columns = {"lens",
-                     "configuration",
-                     "field_deg",
-                     "closed_stops",
-                     "method",
-                     "knob",
-                     "setting",
-                     "cold_ms",
-                     "median_ms",
-                     "p95_ms",
-                     "repeats",
-                     "rays",
-                     "relative_l1",
-                     "energy",
-                     "smape",
-                     "log_stops",
-                     "resolved",
-                     "on_front",
-                     "shortcut",
-                     "ablation",
-                     "reference_error",
-                     "reference_bound",
-                     "reference_ms"};
+    table.columns = {
+        "lens",      "configuration", "field_deg",       "closed_stops",    "method",
+        "knob",      "setting",       "cold_ms",         "median_ms",       "p95_ms",
+        "repeats",   "rays",          "relative_l1",     "energy",          "smape",
+        "log_stops", "flip",          "plan_bound",      "resolved",        "on_front",
+        "shortcut",  "ablation",      "reference_error", "reference_bound", "reference_ms"};
     auto word = [](bool yes) { return std::string(yes ? "yes" : "no"); };
     for (const AccuracyCase& one : run.cases)
         for (const AccuracyPoint& p : one.report.points)
@@ -144,6 +49,8 @@ Table accuracy_rows(const AccuracyRun& run) {
                                   p.errors.energy,
                                   p.errors.smape,
                                   p.errors.log_stops,
+                                  p.errors.flip,
+                                  std::isnan(p.plan_bound) ? Cell() : Cell(p.plan_bound),
                                   word(p.resolved),
                                   word(p.on_front),
                                   word(p.is_shortcut),
@@ -237,6 +144,10 @@ Promises promises_of(const AccuracyRun& run) {
             ++(!point.resolved                             ? promises.unresolved
                : point.errors.relative_l1 <= point.setting ? promises.kept
                                                            : promises.broken);
+            if (std::isnan(point.plan_bound)) continue;
+            ++promises.counted;
+            if (point.errors.relative_l1 <= point.plan_bound + one.report.reference_error)
+                ++promises.accounted;
         }
     return promises;
 }
@@ -283,8 +194,8 @@ std::string accuracy_html(const AccuracyRun& run) {
             "mm² × E0. Reference: asked {} %, its ghosts' errors add up to {} %, its two pictures "
             "differ by {} %{}; {:.3g} s.</p>\n{}\n",
             xml_text(title_of(one)), report.ghosts, report.width_px, report.height_px,
-            report.flux_on_sensor_mm2, percent(report.reference_tolerance),
-            percent(report.reference_bound), percent(report.reference_error),
+            report.flux_on_sensor_mm2, percent_text(report.reference_tolerance),
+            percent_text(report.reference_bound), percent_text(report.reference_error),
             report.reference_converged ? "" : " (not converged)", 1e-3 * report.reference_ms,
             log_chart_svg(error_time_chart(one)));
         const AccuracyRun alone{run.command, run.spectrum, run.machine, run.date, {one}};
@@ -299,13 +210,14 @@ std::string accuracy_html(const AccuracyRun& run) {
                                                   {"energy", "energy<br>%", 100.0},
                                                   {"smape", "SMAPE<br>%", 100.0},
                                                   {"log_stops", "log<br>stops"},
+                                                  {"flip", "HDR-FLIP"},
                                                   {"resolved", "resolved"},
                                                   {"on_front", "front"}});
         if (std::isfinite(report.four_reflections))
             html += fmt::format(
                 "<p>The {} strongest ghosts of four reflections would add {} % of the light of "
                 "those of two.</p>\n",
-                report.four_reflections_traced, percent(report.four_reflections));
+                report.four_reflections_traced, percent_text(report.four_reflections));
         if (!report.by_ghost.empty())
             html +=
                 "<h3>The strongest ghosts</h3>\n" +
@@ -321,111 +233,6 @@ std::string accuracy_html(const AccuracyRun& run) {
     html += fmt::format("\n{}\nprogram: ghostlight-cli " GHOSTLIGHT_VERSION "</pre>\n",
                         xml_text(run.machine));
     return html + "</body></html>\n";
-}
-
-std::string accuracy_markdown(const AccuracyRun& run, const std::string& chart_folder) {
-    const Promises promises = promises_of(run);
-    std::string text = fmt::format(
-        "# Accuracy\n\nMade by `{}` on {}; {}. {}. Nothing here is written by hand.\n\n"
-        "The error is Σ|picture − reference| / Σ reference over the ghosts' irradiance on the "
-        "sensor, without the\nimage itself. The reference is refined until two samplings that "
-        "share no ray agree; below three times what\nthey still differ by, an error is written as "
-        "\"<\". Times are medians of a frame after the first, and mean\nsomething only beside "
-        "each other.\n\n",
-        run.command, run.date, run.machine, run.spectrum);
-    text += "## What to choose\n\n";
-    text +=
-        "`planned` takes an error; there is no grid to choose. Its time, and how many times as "
-        "long "
-        "the others take for\nthe same error (medians over the cases):\n\n"
-        "| error | planned, ms | uniform grids | paraxial |\n| --- | --- | --- | --- |\n";
-    for (const double error : {0.2, 0.1, 0.05, 0.02, 0.01}) {
-        std::vector<double> times;
-        for (const AccuracyCase& one : run.cases) {
-            const double ms = time_within_ms(one.report, "planned", error);
-            if (std::isfinite(ms)) times.push_back(ms);
-        }
-        text += fmt::format("| {} % | {:.3g} | {} | {} |\n", percent(error), median(times),
-                            advantage(run, "uniform", error), advantage(run, "paraxial", error));
-    }
-    text += fmt::format(
-        "\n- While a light is dragged: `planned` at 4 to 10 %.\n"
-        "- For a picture to keep: `planned` at 0.5 to 1 %.\n"
-        "- To measure something against: `reference`, at the error that matters.\n"
-        "- `paraxial` shows where ghosts are, not what they look like; `uniform` is there to "
-        "compare with the\n  2011 paper.\n\n"
-        "## Promised and achieved\n\n![asked against achieved]({}/accuracy_promised.svg)\n\n"
-        "In {} of {} cases where it can be told ({:.3g} %) the error is within the tolerance "
-        "asked; {} more are below\nwhat the reference resolves.\n",
-        chart_folder, promises.kept, promises.kept + promises.broken,
-        100.0 * static_cast<double>(promises.kept) /
-            static_cast<double>(std::max<std::size_t>(1, promises.kept + promises.broken)),
-        promises.unresolved);
-    if (promises.broken > 0) {
-        text += "Beyond it:\n\n| lens | asked, % | error, % |\n| --- | --- | --- |\n";
-        for (const AccuracyCase& one : run.cases)
-            for (const AccuracyPoint& point : one.report.points)
-                if (point.method == "planned" && point.resolved &&
-                    point.errors.relative_l1 > point.setting)
-                    text += fmt::format("| {} | {} | {} |\n", title_of(one), percent(point.setting),
-                                        percent(point.errors.relative_l1));
-    }
-    text +=
-        "\n## Error and time\n\n| lens | ghosts | reference ± % | planned 10 % | planned 2 % | "
-        "planned 0.5 % | uniform 32 | uniform 128 | paraxial |\n"
-        "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
-    for (const AccuracyCase& one : run.cases)
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", title_of(one),
-                            one.report.ghosts, percent(one.report.reference_error),
-                            point_cell(one.report, "planned", 0.1, true),
-                            point_cell(one.report, "planned", 0.02, true),
-                            point_cell(one.report, "planned", 0.005, true),
-                            point_cell(one.report, "uniform", 32, true),
-                            point_cell(one.report, "uniform", 128, true),
-                            point_cell(one.report, "paraxial", NAN, true));
-    text += "\n## What each simplification costs\n\nErrors in percent:\n\n";
-    for (const auto& [method, meaning] : shortcut_names())
-        text += fmt::format("- *{}*: {}\n", method, meaning);
-    text +=
-        "- *20 %, 40 % culled*: so many of the ghosts, the weakest, not drawn (uniform grids of "
-        "64)\n- *four reflections*: light of the strongest of them over that of two, left out\n\n"
-        "| lens | averaged polarisation | reflections only | hullin-2011 coating | single "
-        "precision | 20 % culled | 40 % culled | four reflections |\n"
-        "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
-    for (const AccuracyCase& one : run.cases) {
-        text += "| " + title_of(one);
-        for (const auto& each : shortcut_names())
-            text += " | " + point_cell(one.report, each.first, NAN, false);
-        for (const double share : {0.2, 0.4})
-            text += " | " + point_cell(one.report, "uniform, weakest culled", share, false);
-        text += " | " + percent(one.report.four_reflections) + " |\n";
-    }
-    if (const auto ablations = ablations_of(run); !ablations.empty()) {
-        text +=
-            "\n## What each economy is worth\n\nThe time of a frame without it, over that of the "
-            "plan "
-            "with all of them for the same error (between its own\nsettings, linear in both "
-            "logarithms; medians over 5, 2 and 1 %, where resolved):\n\n| lens";
-        std::string rule = "\n| ---";
-        for (const std::string& method : ablations) {
-            text += " | " + method.substr(method.find(", ") + 2);
-            rule += " | ---";
-        }
-        text += " |" + rule + " |\n";
-        for (const AccuracyCase& one : run.cases) {
-            text += "| " + title_of(one);
-            for (const std::string& method : ablations)
-                text += " | " + cost_without(one.report, method);
-            text += " |\n";
-        }
-        text +=
-            "\nThe mirror symmetry of a beam has no switch: half of each beam is traced, which is "
-            "half of the rays.\n";
-    }
-    text += "\n## Charts\n";
-    for (const AccuracyCase& one : run.cases)
-        text += fmt::format("\n![{}]({}/{})\n", title_of(one), chart_folder, chart_file(one));
-    return text;
 }
 
 }  // namespace ghostlight

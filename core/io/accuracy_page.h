@@ -24,6 +24,11 @@ struct AccuracyRun {
     std::vector<AccuracyCase> cases;
 };
 
+/// The lens, its field and how far it is stopped down.
+std::string title_of(const AccuracyCase& one);
+/// A share in percent to three digits, without the sign; a dash where it is not known.
+std::string percent_text(double share);
+
 /// One row a point of a case; tidy, every digit.
 Table accuracy_rows(const AccuracyRun& run);
 /// One row a ghost by a method.
@@ -37,6 +42,8 @@ LogChart promise_chart(const AccuracyRun& run);
 /// How often the plan kept what it was asked, over the cases where that can be told.
 struct Promises {
     std::size_t kept = 0, broken = 0, unresolved = 0;
+    /// Cases in which the plan's own account, with the reference's error, covers the true error.
+    std::size_t accounted = 0, counted = 0;
 };
 Promises promises_of(const AccuracyRun& run);
 
@@ -45,8 +52,13 @@ double time_within_ms(const AccuracyReport& report, const std::string& method, d
 
 /// A self-contained page with charts and tables.
 std::string accuracy_html(const AccuracyRun& run);
-/// The same in short, with words on what to choose, for docs/accuracy.md; charts by their files.
-std::string accuracy_markdown(const AccuracyRun& run, const std::string& chart_folder);
+/// What the same says in words and tables, for docs/.
+struct MarkdownSettings {
+    std::string chart_folder = ".";  ///< where the charts' files are, from the page
+    std::string name = "accuracy";   ///< of the page: its chart of promises is NAME_promised.svg
+    bool case_charts = true;         ///< a chart for each case
+};
+std::string accuracy_markdown(const AccuracyRun& run, const MarkdownSettings& settings);
 
 /// The name of a case's chart, without a folder.
 std::string chart_file(const AccuracyCase& one);

@@ -23,9 +23,9 @@ namespace {
 /// what is left is some percents between levels a factor of ten apart.
 constexpr double guessed_curve_error = 0.03;
 
-constexpr std::array raw_extensions = {".dng", ".cr2", ".cr3", ".crw", ".nef", ".nrw", ".arw",
-                                       ".raf", ".rw2", ".orf", ".pef", ".srw", ".rwl", ".3fr",
-                                       ".iiq", ".erf", ".mef", ".mos", ".x3f"};
+constexpr std::array<std::string_view, 19> raw_extensions = {
+    ".dng", ".cr2", ".cr3", ".crw", ".nef", ".nrw", ".arw", ".raf", ".rw2", ".orf",
+    ".pef", ".srw", ".rwl", ".3fr", ".iiq", ".erf", ".mef", ".mos", ".x3f"};
 /// What synth writes in front of its numbers, into a field that every format keeps.
 constexpr std::string_view noise_key = "ghostlight noise: shot ";
 /// 24 Mpx cameras and more are common; beyond this something is wrong with the file.
@@ -57,7 +57,8 @@ std::unique_ptr<OIIO::ImageInput> opened(const std::filesystem::path& file, bool
         // exposures.
         config.attribute("raw:adjust_maximum_thr", 0.0F);
         config.attribute("raw:HighlightMode", 1);
-        config.attribute("raw:user_flip", 0);  // as the sensor has it
+        config.attribute("raw:balance_clamped", 0);  // of a balance that is none
+        config.attribute("raw:user_flip", 0);        // as the sensor has it
     }
     auto input = OIIO::ImageInput::open(file.string(), &config);
     if (!input) {
@@ -125,6 +126,8 @@ std::vector<float> read_rgb(OIIO::ImageInput& input, const OIIO::ImageSpec& spec
 }
 
 }  // namespace
+
+std::span<const std::string_view> raw_photo_extensions() { return raw_extensions; }
 
 PhotoFormat photo_format(const std::filesystem::path& file) {
     const std::string extension = extension_of(file);

@@ -1,10 +1,15 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <string_view>
 
 #include "core/fit/photo.h"
 
 namespace ghostlight {
+
+/// Lower case, with their dots.
+std::span<const std::string_view> raw_photo_extensions();
 
 /// Reads EXR, TIFF, PNG, JPEG and camera RAW, linear, in the sensor's frame. Files in sRGB are
 /// linearised, with a note that their tone curve is a guess; RAW stays in camera space, unclipped

@@ -29,7 +29,7 @@ TEST_F(CommandLineAccuracy, WritesTidyTablesChartsAndPages) {
         planned += points.text(r, "method") == "planned" ? 1 : 0;
     }
     EXPECT_EQ(closings.size(), 2U);
-    EXPECT_GE(planned, 4);
+    EXPECT_GE(planned, 2) << "the budget may cut off all but the first of each case";
     for (const char* method :
          {"paraxial", "uniform", "averaged polarisation", "reflections only", "single precision",
           "planned, hullin-2011 coating", "planned, all at full size", "planned, nothing left out",
@@ -43,7 +43,7 @@ TEST_F(CommandLineAccuracy, WritesTidyTablesChartsAndPages) {
         EXPECT_NE(page.find(words), std::string::npos) << words;
     const std::string summary = read_file(folder / "out" / "accuracy.md");
     for (const char* words : {"# Accuracy", "## What to choose", "## Promised and achieved",
-                              "## What each economy is worth"})
+                              "## What the eye sees", "## What each economy is worth"})
         EXPECT_NE(summary.find(words), std::string::npos) << words;
     int charts = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder / "out"))

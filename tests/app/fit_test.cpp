@@ -47,5 +47,62 @@ TEST_F(CommandLineFit, RefusesWhatItCannotUse) {
     refused("photo.exr", {"--vary", "center@1", "--light", "9999,9999"}, {"light"});
 }
 
+TEST_F(CommandLineFit, RefusesWhatOfAPhotographCannotCount) {
+    synth("photo.exr", {});
+    const auto expect = [&](const std::vector<std::string>& more,
+                            const std::vector<std::string>& words) {
+        std::vector<std::string> all = {"--vary", "center@1"};
+        all.insert(all.end(), more.begin(), more.end());
+        refused("photo.exr", all, words);
+    };
+    expect({"--mask-region", "1,2,3"}, {"--mask-region", "brush"});
+    expect({"--crop", "1,2,0,3"}, {"--crop", "WIDTH,HEIGHT"});
+    expect({"--crop", "900,2,10,10"}, {"nothing of the photograph"});
+    expect({"--photo-noise", "1"}, {"--photo-noise", "SHOT,READ"});
+    expect({"--saturation", "0"}, {"--saturation"});
+    expect({"--rotation", "0;1"}, {"--rotation", "semicolons"});
+    expect({"--leave-out", "99-1"}, {"--leave-out", "99"});
+    expect({"--use-ghosts", "x"}, {"--use-ghosts"});
+    expect({"--mask-region", "0,0,64,0,64,43,0,43"}, {"too little of the photograph"});
+}
+
+class CommandLineFitted : public CommandLineFit {
+   protected:
+    std::string path(const std::string& name) const { return (folder / name).string(); }
+    /// The table's one row.
+    Csv fitted(const std::vector<std::string>& more) const {
+        std::vector<std::string> command = {
+            "fit", tessar(),    "--coating", "qw:550",    "--starts", "1",      "--wavelength",
+            "620", "--suggest", "0",         "--samples", "24",       "--vary", "center@1"};
+        command.insert(command.end(), more.begin(), more.end());
+        return cli_csv(command);
+    }
+};
+
+TEST_F(CommandLineFitted, TwoExposuresTellMoreThanOne) {
+    synth("a.exr", {"--seed", "1"});
+    synth("b.exr", {"--seed", "2"});
+    const double one = fitted({"--photo", path("a.exr")}).number(0, "standard_error");
+    const double both = fitted({"--photo", path("a.exr") + "," + path("b.exr"), "--merge"})
+                            .number(0, "standard_error");
+    // Twice the light: 1/√2 where noise alone decides, more where the model's own error does.
+    EXPECT_GT(both, 0.6 * one);
+    EXPECT_LT(both, 0.95 * one);
+}
+
+TEST_F(CommandLineFitted, ReportSaysWhichRegionsWereLeftOut) {
+    synth("a.exr", {});
+    const double all = fitted({"--photo", path("a.exr")}).number(0, "standard_error");
+    const double part =
+        fitted({"--photo", path("a.exr"), "--mask-region", "2,2,30,2,30,30,2,30/brush:3:40,30",
+                "--crop", "0,0,48,43", "--report", path("fit.html")})
+            .number(0, "standard_error");
+    EXPECT_GT(part, all);  // less of the photograph tells less
+    // It says how to make the same again.
+    const std::string page = read_file(path("fit.html"));
+    EXPECT_NE(page.find("brush:3:40,30"), std::string::npos);
+    EXPECT_NE(page.find("--crop"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace ghostlight::test

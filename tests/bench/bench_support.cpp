@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "core/freed_memory.h"
 #include "core/instruction_set.h"
 #include "core/io/lens_file.h"
 #include "core/optics/optical_system.h"
@@ -17,6 +18,9 @@
 
 namespace ghostlight::bench {
 namespace {
+
+/// Benchmarks use memory as the programs do.
+[[maybe_unused]] const bool as_programs_do = (keep_freed_memory(), true);
 
 /// Shows that something happens, and keeps what was measured.
 class Collector : public benchmark::BenchmarkReporter {

@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QLocale>
 #include <QSettings>
 #include <QStandardPaths>
 #include <QTemporaryDir>
+
+#include "widgets/translation.h"
 
 int main(int argc, char** argv) {
     testing::InitGoogleTest(&argc, argv);
@@ -22,6 +25,8 @@ int main(int argc, char** argv) {
     QApplication application(argc, argv);
     QApplication::setApplicationName("ghostlight-tests");
     QApplication::setOrganizationName("ghostlight-tests");
+    // English whatever the machine speaks, with its plurals.
+    ghostlight::install_translation(application, QLocale(QLocale::English));
     // A trial of the engines in every window would cost more than all else that is tested.
     QSettings().setValue("flare_engine", "cpu");
     return RUN_ALL_TESTS();

@@ -6,7 +6,7 @@
 
 #include <QComboBox>
 #include <QLineEdit>
-#include <QPushButton>
+#include <QSpinBox>
 #include <QTableView>
 #include <QTemporaryDir>
 #include <QTest>
@@ -16,89 +16,22 @@
 #include <sstream>
 
 #include "core/fit/light_place.h"
-#include "core/fit/synthetic_photo.h"
 #include "core/io/fit_setup_json.h"
-#include "core/io/photo_file.h"
 #include "core/io/varied_cells.h"
 #include "core/optics/optical_system.h"
 #include "core/units.h"
-#include "tests/widgets/window_kit.h"
-#include "widgets/actions.h"
+#include "tests/widgets/fit_kit.h"
 #include "widgets/document.h"
-#include "widgets/panels/correlation_view.h"
+#include "widgets/panels/fit_profile_page.h"
 #include "widgets/panels/fit_results.h"
+#include "widgets/panels/fit_variables.h"
 #include "widgets/panels/line_plot.h"
 
 namespace ghostlight {
 namespace {
 
-constexpr double field_deg = 5.0;
-/// One wavelength makes the reference quick; off λ0, where a reflectance has a slope.
-constexpr double light_nm = 620.0;
-constexpr double true_nm = 550.0, wrong_nm = 590.0;
-
-/// The tessar's photograph with its own coatings, made once.
-const QString& photograph() {
-    static QTemporaryDir folder;
-    static const QString file = [] {
-        const Prescription lens = read_lens(test::tessar()).lens;
-        SyntheticPhotoRequest request;
-        request.light = {field_deg, 90.0};
-        request.width_px = 192;
-        request.spectrum = Monochromatic{light_nm};
-        request.noise = 0.01;
-        request.gains = {0.7, 1.0, 0.8};
-        const QString name = folder.filePath("flare.exr");
-        write_photo(*synthetic_photo(lens, request), 0, name.toStdString());
-        return name;
-    }();
-    return file;
-}
-
-class FitPanelTest : public testing::Test {
-   protected:
-    FitPanelTest() : actions_(&host_), panel_(document_, actions_) {
-        panel_.resize(1200, 520);
-        panel_.show();
-        EXPECT_TRUE(QTest::qWaitForWindowExposed(&panel_));
-    }
-    /// The tessar with one coating wrong.
-    void open_wrong() {
-        ASSERT_FALSE(document_.open(test::tessar()));
-        Prescription wrong = document_.lens();
-        auto* film = std::get_if<QuarterWave>(&wrong.surfaces[0].coating);
-        ASSERT_NE(film, nullptr);
-        ASSERT_EQ(film->center_nm, true_nm);
-        film->center_nm = wrong_nm;
-        document_.edit_lens(wrong, "make a coating wrong");
-    }
-    /// Few samples and one first guess, by the set-up as a file holds it.
-    void make_quick() {
-        FitSetup setup = fit_setup_from_json(document_.fit());
-        setup.spectrum = "620 nm";
-        setup.across = 48;
-        setup.starts = 1;
-        document_.edit_fit(fit_setup_to_json(setup), "make it quick");
-    }
-    bool settle() {
-        return QTest::qWaitFor([this] { return panel_.is_settled(); }, test::patience_ms);
-    }
-    void click(const QString& name) { QTest::mouseClick(&panel_.button(name), Qt::LeftButton); }
-    void type_spec(const QString& text) {
-        panel_.spec().setFocus();
-        panel_.spec().selectAll();
-        QTest::keyClicks(&panel_.spec(), text);
-        QTest::keyClick(&panel_.spec(), Qt::Key_Return);
-    }
-    double center_nm() const {
-        return std::get<QuarterWave>(document_.lens().surfaces[0].coating).center_nm;
-    }
-
-    QWidget host_;
-    Actions actions_;
-    Document document_;
-    FitPanel panel_;
-};
+using test::field_deg, test::photograph, test::true_nm, test::wrong_nm;
+using FitPanelTest = test::FitPanelTest;
 
 TEST_F(FitPanelTest, SaysWhatIsMissing) {
     ASSERT_FALSE(document_.open(test::tessar()));
@@ -324,9 +257,10 @@ TEST_F(FitPanelTest, CancelledFitKeepsItsBestIteration) {
         test::patience_ms));
     ASSERT_TRUE(panel_.is_running());
     click("pause");
-    EXPECT_EQ(panel_.state(), "paused");
+    // Said only when it is so: the step in work ends first.
+    ASSERT_TRUE(
+        QTest::qWaitFor([this] { return panel_.state().startsWith("paused"); }, test::patience_ms));
     const auto points = [this] { return panel_.results().costs().curves().front().points.size(); };
-    QTest::qWait(300);  // the iteration in work
     const auto before = points();
     QTest::qWait(300);
     EXPECT_EQ(points(), before);
@@ -334,6 +268,8 @@ TEST_F(FitPanelTest, CancelledFitKeepsItsBestIteration) {
     click("cancel");
     EXPECT_FALSE(panel_.is_running());  // at once
     EXPECT_TRUE(panel_.state().contains("best so far"));
+    ASSERT_TRUE(QTest::qWaitFor([this] { return panel_.state().startsWith("stopped"); },
+                                test::patience_ms));
     EXPECT_FALSE(panel_.report());
     EXPECT_TRUE(panel_.button("apply").isEnabled());
     EXPECT_FALSE(panel_.button("report").isEnabled());
@@ -341,6 +277,39 @@ TEST_F(FitPanelTest, CancelledFitKeepsItsBestIteration) {
     EXPECT_NE(center_nm(), wrong_nm);
     document_.history().undo();
     EXPECT_EQ(center_nm(), wrong_nm);
+}
+
+TEST_F(FitPanelTest, IntervalsAreProfiledAndDrawnOnRequest) {
+    open_wrong();
+    panel_.add_photographs({photograph()});
+    type_spec("center@1");
+    make_quick();
+    ASSERT_TRUE(settle());
+    EXPECT_FALSE(panel_.button("profile").isEnabled());
+    panel_.table().selectRow(0);
+    click("profile");
+    EXPECT_EQ(fit_setup_from_json(document_.fit()).profiled,
+              fit_setup_from_json(document_.fit()).vary);
+    EXPECT_EQ(panel_.model().index(0, FitParameterModel::interval).data().toString(), "profile");
+    panel_.variables().bootstrap().setValue(4);
+    EXPECT_EQ(fit_setup_from_json(document_.fit()).bootstrap, 4);
+    ASSERT_TRUE(settle());
+    click("start");
+    ASSERT_TRUE(settle());
+    ASSERT_TRUE(panel_.report()) << panel_.reason().toStdString();
+    ASSERT_EQ(panel_.report()->profiles.size(), 1U);
+    EXPECT_TRUE(
+        panel_.model().index(0, FitParameterModel::interval).data().toString().endsWith(" P"));
+    FitProfilePage& page = panel_.results().profiles();
+    EXPECT_EQ(page.numbers().count(), 1);
+    EXPECT_EQ(page.plot().curves().size(), 3U);
+    EXPECT_TRUE(page.words().contains("profile") && page.words().contains("bootstrap"))
+        << page.words().toStdString();
+    panel_.table().selectRow(0);
+    click("profile");
+    EXPECT_EQ(fit_setup_from_json(document_.fit()).profiled, "");
+    document_.history().undo();
+    EXPECT_NE(fit_setup_from_json(document_.fit()).profiled, "");
 }
 
 }  // namespace

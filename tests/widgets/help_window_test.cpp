@@ -14,6 +14,7 @@
 #include "widgets/gl_view.h"
 #include "widgets/help_pages.h"
 #include "widgets/panels/ghost_panel.h"
+#include "widgets/panels/prescription_panel.h"
 
 namespace ghostlight {
 namespace {
@@ -45,7 +46,7 @@ TEST(HelpPages, TheGuideHasASectionForEveryPanelThatThereIs) {
     const auto docks = shown.window.findChildren<QDockWidget*>();
     ASSERT_GE(docks.size(), 7);
     for (const QDockWidget* dock : docks) {
-        EXPECT_FALSE(heading_about(dock->windowTitle(), all).isEmpty())
+        EXPECT_FALSE(heading_about(guide_title(dock->objectName()), all).isEmpty())
             << qPrintable(dock->windowTitle()) << " has no heading in docs/user-guide.md";
     }
 }
@@ -68,6 +69,27 @@ TEST(HelpWindow, F1OpensThePageOfThePanelInUse) {
     EXPECT_TRUE(shows("The ghost table"))
         << qPrintable(help->heading_in_view()) << help->browser().verticalScrollBar()->value()
         << " of " << help->browser().verticalScrollBar()->maximum();
+
+    // From another panel while the help is open, scrolled to elsewhere, or with another page in it.
+    const auto ask_from = [&](QWidget& field) {
+        window.activateWindow();
+        // A window counts as active while one that belongs to it is.
+        if (!QTest::qWaitFor([&] { return QApplication::activeWindow() == &window; }, 5000)) {
+            ADD_FAILURE() << "the window does not come back";
+        }
+        field.setFocus();
+        QTest::keyClick(&field, Qt::Key_F1);
+    };
+    ask_from(window.prescription_panel().table());
+    EXPECT_TRUE(shows("The prescription")) << qPrintable(help->heading_in_view());
+    help->browser().verticalScrollBar()->setValue(0);
+    ask_from(window.prescription_panel().table());
+    EXPECT_TRUE(shows("The prescription")) << qPrintable(help->heading_in_view());
+    window.actions()["help.about"].trigger();
+    ASSERT_TRUE(help->browser().toPlainText().contains("VTK"));
+    ask_from(window.ghost_panel().table());
+    EXPECT_TRUE(shows("The ghost table")) << qPrintable(help->heading_in_view());
+    EXPECT_EQ(window.findChildren<HelpWindow*>().size(), 1);
 }
 
 TEST(HelpWindow, PicturesOfTheGuideAreThereAndFit) {

@@ -4,6 +4,7 @@
 
 #include <QLineEdit>
 #include <QListWidget>
+#include <QMenu>
 #include <QSignalSpy>
 #include <QToolButton>
 
@@ -118,6 +119,44 @@ TEST_F(LayersStripTest, SwitchesGainsAndAlone) {
     EXPECT_FALSE(layers().alone);
     document.history().undo();
     EXPECT_EQ(layers().alone, LayerKind::veil);
+}
+
+TEST_F(LayersStripTest, NamesStayWholeHoweverNarrowAndAMenuHasTheRest) {
+    strip.on(LayerKind::veil).click();
+    strip.on(LayerKind::starburst).click();
+    strip.resize(1600, 40);
+    strip.show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(&strip));
+    EXPECT_TRUE(strip.gain(LayerKind::veil).isVisible());
+    EXPECT_FALSE(strip.more().isVisible());
+    int names_px = 0;
+    for (const LayerKind kind : layer_kinds) {
+        names_px += strip.on(kind).sizeHint().width();
+    }
+    for (int width = 1600; width > names_px + 120; width -= 40) {
+        strip.resize(width, 40);
+        QCoreApplication::processEvents();
+        for (const LayerKind kind : layer_kinds) {
+            EXPECT_TRUE(strip.on(kind).isVisible());
+            EXPECT_GE(strip.on(kind).width(), strip.on(kind).sizeHint().width()) << width;
+            EXPECT_LE(strip.on(kind).geometry().right(), width);
+        }
+    }
+    ASSERT_TRUE(strip.more().isVisible());
+    EXPECT_FALSE(strip.gain(LayerKind::veil).isVisible());
+    QTest::mouseClick(&strip.more(), Qt::LeftButton);
+    auto* menu = strip.findChild<QMenu*>("more_of_layers");
+    ASSERT_NE(menu, nullptr);
+    const double before_ev = layers().of(LayerKind::ghosts).gain_ev;
+    ASSERT_FALSE(menu->actions().isEmpty());
+    for (QAction* action : menu->actions()) {
+        if (action->text() == "Half a Stop Brighter") {
+            action->trigger();  // the first is the ghosts'
+            break;
+        }
+    }
+    EXPECT_EQ(layers().of(LayerKind::ghosts).gain_ev, before_ev + 0.5);
+    menu->close();
 }
 
 TEST_F(LayersStripTest, ABackdropAsksForItsFile) {

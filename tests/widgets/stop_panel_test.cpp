@@ -2,11 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <QLabel>
 #include <QLineEdit>
 #include <QTemporaryDir>
 #include <QTest>
 #include <QToolButton>
 
+#include <cmath>
+
+#include "core/optics/optical_system.h"
+#include "core/optics/paraxial.h"
+#include "core/units.h"
 #include "tests/widgets/window_kit.h"
 #include "widgets/actions.h"
 #include "widgets/document.h"
@@ -137,6 +143,75 @@ TEST_F(StopPanelTest, TooMuchDirtIsARefusalInThePanel) {
     type("dust", "50");
     ASSERT_TRUE(settle());
     EXPECT_TRUE(panel_.reason().contains("specks")) << panel_.reason().toStdString();
+}
+
+TEST_F(StopPanelTest, TheFNumberIsSetHereToo) {
+    open();
+    const auto f_number = [this] {
+        return first_order(compile(document_.configured_lens(), d_line_nm)).f_number;
+    };
+    const double open_f = f_number();
+    EXPECT_EQ(panel_.editor("f_number").text().toDouble(), std::round(open_f * 100.0) / 100.0);
+    type("f_number", "8");
+    EXPECT_NEAR(f_number(), 8.0, 1e-9);
+    // A third of a stop up, and back.
+    QTest::keyClick(&panel_.editor("f_number"), Qt::Key_Up);
+    EXPECT_NEAR(f_number(), 8.98, 1e-9);  // 8 × 2^(1/6), as people write it
+    type("f_number", "wide");
+    EXPECT_NE(panel_.reason(), "");
+    EXPECT_NEAR(f_number(), 8.98, 1e-9);
+    panel_.reset_button("f_number").click();
+    EXPECT_NEAR(f_number(), open_f, 1e-9);
+}
+
+TEST_F(StopPanelTest, ArrowKeysGoByStepsOverWhatNoStopHas) {
+    open();
+    QLineEdit& blades = panel_.editor("blades");
+    blades.setFocus();
+    type("blades", "0");
+    QTest::keyClick(&blades, Qt::Key_Up);
+    EXPECT_EQ(stop().blades, 3);
+    QTest::keyClick(&blades, Qt::Key_Up);
+    EXPECT_EQ(stop().blades, 4);
+    EXPECT_EQ(blades.text(), "4");
+    QTest::keyClick(&blades, Qt::Key_Down);
+    QTest::keyClick(&blades, Qt::Key_Down);
+    EXPECT_EQ(stop().blades, 0);
+    QTest::keyClick(&blades, Qt::Key_Down);
+    EXPECT_EQ(stop().blades, 0);
+    EXPECT_EQ(panel_.reason(), "") << "the end of a range is no mistake";
+}
+
+TEST_F(StopPanelTest, ANumberIsDrawnByItsNameInOneStepOfTheHistory) {
+    open();
+    QLabel* name = nullptr;
+    for (QLabel* label : panel_.findChildren<QLabel*>()) {
+        name = label->text() == "Rotation" ? label : name;
+    }
+    ASSERT_NE(name, nullptr);
+    const int before = document_.history().count();
+    QTest::mousePress(name, Qt::LeftButton, {}, QPoint(5, 5));
+    for (int x = 10; x <= 95; x += 5) {
+        QTest::mouseMove(name, QPoint(x, 5));
+        QCoreApplication::processEvents();
+    }
+    QTest::mouseRelease(name, Qt::LeftButton, {}, QPoint(95, 5));
+    EXPECT_GT(stop().rotation_deg, 5.0);
+    EXPECT_EQ(document_.history().count(), before + 1);
+    document_.history().undo();
+    EXPECT_EQ(stop().rotation_deg, 0.0);
+}
+
+TEST_F(StopPanelTest, StatisticsSayWhatLiesOnIt) {
+    open();
+    type("blades", "7");
+    ASSERT_TRUE(settle());
+    EXPECT_EQ(panel_.statistics(), "14 arms of the starburst");
+    type("scratches", "1");
+    ASSERT_TRUE(settle());
+    EXPECT_TRUE(panel_.statistics().contains("1 scratch takes "))
+        << qPrintable(panel_.statistics());
+    EXPECT_TRUE(panel_.statistics().contains(" % of the light passes"));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <QTemporaryDir>
 #include <QTest>
 #include <QToolButton>
+#include <QTreeView>
 
 #include <algorithm>
 #include <cmath>
@@ -129,7 +130,7 @@ TEST(GhostPanelLooks, SurfacesAreSummed) {
     ASSERT_TRUE(shown.settle());
     MainWindow& window = shown.window;
     window.actions()["ghosts.as_surfaces"].trigger();
-    QTableView& sums = window.ghost_panel().surfaces();
+    QTreeView& sums = window.ghost_panel().surfaces();
     ASSERT_TRUE(sums.isVisible());
     auto& model = dynamic_cast<SurfaceSumsModel&>(*sums.model());
     QAbstractItemModelTester tester(&model, QAbstractItemModelTester::FailureReportingMode::Fatal);
@@ -143,9 +144,33 @@ TEST(GhostPanelLooks, SurfacesAreSummed) {
     }
     EXPECT_NEAR(twice, 2.0 * all, 1e-9 * all);  // each ghost at both of its surfaces
     // A surface lists its ghosts.
-    sums.selectRow(0);
+    const QModelIndex group = model.index(0, 0);
+    const std::size_t surface = model.sum(0).surface;
+    QTest::mouseClick(sums.viewport(), Qt::LeftButton, {}, sums.visualRect(group).center());
     EXPECT_EQ(window.ghost_panel().filter_line().text(),
-              QStringLiteral("touches %1").arg(model.sum(0).surface + 1));
+              QStringLiteral("touches %1").arg(surface + 1));
+    // The right arrow opens the group: its ghosts, which add up to its total.
+    QTest::keyClick(&sums, Qt::Key_Right);
+    ASSERT_TRUE(sums.isExpanded(group));
+    double in_group = 0.0;
+    for (int row = 0; row < model.rowCount(group); ++row) {
+        const GhostRow& ghost = *model.ghost(model.index(row, 0, group));
+        EXPECT_TRUE(std::ranges::count(ghost.path.reflections, surface) > 0);
+        in_group += ghost.flux_mm2;
+    }
+    EXPECT_NEAR(in_group, model.sum(0).sum.flux_mm2, 1e-9 * all);
+    // One of them, and it is chosen in every view, in the group of its other surface as well.
+    QTest::keyClick(&sums, Qt::Key_Down);
+    const GhostPath strongest = model.ghost(model.index(0, 0, group))->path;
+    EXPECT_EQ(window.selection().ghosts(), std::vector<GhostPath>{strongest});
+    EXPECT_EQ(window.ghost_panel().table().selectionModel()->selectedRows().size(), 1);
+    // What is open stays open while the table is worked out anew.
+    Prescription lens = window.document().lens();
+    lens.surfaces[0].semi_diameter_mm *= 0.99;
+    window.document().edit_lens(lens, "make the front smaller");
+    ASSERT_TRUE(shown.settle());
+    EXPECT_TRUE(sums.isExpanded(model.group_of(surface)));
+    EXPECT_EQ(window.selection().ghosts(), std::vector<GhostPath>{strongest});
 }
 
 TEST(GhostPanelLooks, ColumnsAreKept) {

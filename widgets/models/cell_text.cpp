@@ -1,5 +1,7 @@
 #include "widgets/models/cell_text.h"
 
+#include <QCoreApplication>
+
 #include <QRegularExpression>
 #include <QStringList>
 
@@ -15,6 +17,11 @@
 namespace ghostlight {
 
 namespace {
+
+/// Texts for people, as translators know them.
+struct CellWords {
+    Q_DECLARE_TR_FUNCTIONS(CellWords)
+};
 
 [[noreturn]] void refuse(const QString& problem, const QString& found, const QString& expected) {
     throw Error(
@@ -44,7 +51,8 @@ Medium read_layer_medium(const QString& text, const GlassCatalog& catalog) {
     }
     const auto n = parse_number(plain);
     if (!n || *n <= 0.0) {
-        refuse("unknown layer material", text, "MgF2, a catalogue name or an index above 0");
+        refuse(CellWords::tr("unknown layer material"), text,
+               CellWords::tr("MgF2, a catalogue name or an index above 0"));
     }
     return Medium{{}, ConstantIndex{*n}};
 }
@@ -62,15 +70,16 @@ QString text_of_quarter_wave(const QuarterWave& coating) {
 
 Layer read_layer(const QString& text, const GlassCatalog& catalog) {
     const QStringList parts = text.split(':');
-    const QString expected = "layers as index[,k]:thickness in nm, e.g. 1.38:96.4 | 2.1:50";
+    const QString expected =
+        CellWords::tr("layers as index[,k]:thickness in nm, e.g. 1.38:96.4 | 2.1:50");
     if (parts.size() != 2) {
-        refuse("cannot read the layer", text, expected);
+        refuse(CellWords::tr("cannot read the layer"), text, expected);
     }
     const QStringList index = parts[0].split(',');
     const auto thickness = parse_number(parts[1]);
     const auto extinction = index.size() == 2 ? parse_number(index[1]) : 0.0;
     if (index.size() > 2 || !thickness || !extinction || *thickness < 0.0 || *extinction < 0.0) {
-        refuse("cannot read the layer", text, expected);
+        refuse(CellWords::tr("cannot read the layer"), text, expected);
     }
     return {read_layer_medium(index[0], catalog), *thickness, *extinction};
 }
@@ -130,24 +139,25 @@ std::optional<ConstantReflectance> read_constant(const QString& plain) {
     const auto t = match.captured(2).isEmpty() ? std::optional(1.0 - r.value_or(0.0))
                                                : parse_number(match.captured(2));
     if (!r || !t || *r < 0.0 || *t < 0.0 || *r + *t > 1.0) {
-        refuse("not a usable reflectance", plain, "shares R=0.05, T=0.9 with R + T up to 1");
+        refuse(CellWords::tr("not a usable reflectance"), plain,
+               CellWords::tr("shares R=0.05, T=0.9 with R + T up to 1"));
     }
     return ConstantReflectance{*r, *t};
 }
 
 }  // namespace
 
-double read_number(const QString& text, const char* expected, CellUnit unit) {
+double read_number(const QString& text, const QString& expected, CellUnit unit) {
     if (const auto number = parse_number(text)) {
         return *number;
     }
-    return read_cell_expression(text.toStdString(), unit, expected);
+    return read_cell_expression(text.toStdString(), unit, expected.toStdString());
 }
 
-double read_positive(const QString& text, const char* expected, CellUnit unit) {
+double read_positive(const QString& text, const QString& expected, CellUnit unit) {
     const double number = read_number(text, expected, unit);
     if (number <= 0.0) {
-        refuse("must be above 0", text, expected);
+        refuse(CellWords::tr("must be above 0"), text, expected);
     }
     return number;
 }
@@ -168,13 +178,14 @@ BaseCurve read_curve(const QString& text) {
     if (planes.contains(plain)) {
         return Plane{};
     }
-    const char* expected = "a radius in mm, or 'plane'";
+    const QString expected = CellWords::tr("a radius in mm, or 'plane'");
     if (plain.startsWith("c=")) {
-        return Curvature{read_number(plain.mid(2), "a curvature in 1/mm", CellUnit::per_mm)};
+        return Curvature{
+            read_number(plain.mid(2), CellWords::tr("a curvature in 1/mm"), CellUnit::per_mm)};
     }
     const double mm = read_number(plain, expected, CellUnit::mm);
     if (mm == 0.0) {
-        refuse("a radius cannot be 0", text, expected);
+        refuse(CellWords::tr("a radius cannot be 0"), text, expected);
     }
     return Radius{mm};
 }
@@ -209,21 +220,22 @@ Medium read_medium(const QString& text, const GlassCatalog& catalog) {
     if (const auto known = find_glass(plain.toStdString(), {})) {
         return known->glass.medium;
     }
-    const QString expected = "a catalogue name, 'nd / Vd' or an index; empty for air";
+    const QString expected =
+        CellWords::tr("a catalogue name, 'nd / Vd' or an index; empty for air");
     const QStringList parts = plain.split('/');
     const auto nd = parse_number(parts[0]);
     if (!nd) {
-        refuse("no such glass in the catalogue", text, expected);
+        refuse(CellWords::tr("no such glass in the catalogue"), text, expected);
     }
     if (*nd < 1.0) {
-        refuse("an index is at least 1", text, expected);
+        refuse(CellWords::tr("an index is at least 1"), text, expected);
     }
     if (parts.size() == 1) {
         return *nd == 1.0 ? Medium{} : Medium{{}, ConstantIndex{*nd}};
     }
     const auto vd = parse_number(parts[1]);
     if (parts.size() != 2 || !vd || *vd <= 0.0) {
-        refuse("the Abbe number is not a number above 0", text, expected);
+        refuse(CellWords::tr("the Abbe number is not a number above 0"), text, expected);
     }
     return {{}, ModelGlass{*nd, *vd}};
 }
@@ -239,7 +251,7 @@ QString text_of_aspheric(const std::vector<double>& terms) {
 std::vector<double> read_aspheric(const QString& text) {
     static const QRegularExpression separators("[,;\\s]+");
     static const QRegularExpression named("^[aA](\\d+)=(.+)$");
-    const QString expected = "A4=1.2e-5, A6=-3e-8, … or a list that starts at A4";
+    const QString expected = CellWords::tr("A4=1.2e-5, A6=-3e-8, … or a list that starts at A4");
     std::vector<double> terms;
     std::size_t place = 0;
     // "A4 = 1e-5" is as good as "A4=1e-5".
@@ -250,14 +262,14 @@ std::vector<double> read_aspheric(const QString& text) {
         if (match.hasMatch()) {
             const int power = match.captured(1).toInt();
             if (power < 4 || power % 2 != 0 || power > 40) {
-                refuse("powers are even, from 4 on", part, expected);
+                refuse(CellWords::tr("powers are even, from 4 on"), part, expected);
             }
             place = static_cast<std::size_t>(power - 4) / 2;
             value = match.captured(2);
         }
         const auto number = parse_number(value);
         if (!number) {
-            refuse("cannot read the aspheric term", part, expected);
+            refuse(CellWords::tr("cannot read the aspheric term"), part, expected);
         }
         if (place >= terms.size()) {
             terms.resize(place + 1, 0.0);
@@ -290,9 +302,11 @@ Coating read_coating(const QString& text, const GlassCatalog& catalog) {
     const auto match = quarter_wave.match(plain);
     if (!match.hasMatch()) {
         if (!plain.contains(':')) {
-            refuse("cannot read the coating", text,
-                   "none, MgF2 λ/4 550, 1.38 λ/4 550, ideal λ/4 550, a stack 1.38:96.4 | 2.1:50, "
-                   "R=0.05, or a name of the coating library");
+            refuse(
+                CellWords::tr("cannot read the coating"), text,
+                CellWords::tr(
+                    "none, MgF2 λ/4 550, 1.38 λ/4 550, ideal λ/4 550, a stack 1.38:96.4 | 2.1:50, "
+                    "R=0.05, or a name of the coating library"));
         }
         LayerStack stack;
         for (const QString& part : plain.split('|')) {
@@ -312,9 +326,11 @@ Coating read_coating(const QString& text, const GlassCatalog& catalog) {
     } else if (!layer.isEmpty()) {
         coating.layer = read_layer_medium(layer, catalog);
     }
-    coating.center_nm = read_positive(match.captured(2), "a centre wavelength in nm", CellUnit::nm);
+    coating.center_nm =
+        read_positive(match.captured(2), CellWords::tr("a centre wavelength in nm"), CellUnit::nm);
     if (match.lastCapturedIndex() >= 3) {
-        coating.thickness_factor = read_positive(match.captured(3), "a thickness factor");
+        coating.thickness_factor =
+            read_positive(match.captured(3), CellWords::tr("a thickness factor"));
     }
     return coating;
 }

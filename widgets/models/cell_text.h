@@ -33,7 +33,7 @@ Coating read_coating(const QString& text, const GlassCatalog& catalog);
 
 /// A number or arithmetic with units (core/io/cell_expression.h), or Error naming what it should
 /// have been ("a thickness in mm").
-double read_number(const QString& text, const char* expected, CellUnit unit = CellUnit::none);
-double read_positive(const QString& text, const char* expected, CellUnit unit = CellUnit::none);
+double read_number(const QString& text, const QString& expected, CellUnit unit = CellUnit::none);
+double read_positive(const QString& text, const QString& expected, CellUnit unit = CellUnit::none);
 
 }  // namespace ghostlight

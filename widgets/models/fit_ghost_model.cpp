@@ -15,15 +15,28 @@ namespace ghostlight {
 namespace {
 
 constexpr std::array<const char*, FitGhostModel::column_count> titles = {
-    "Counts", "Signal/noise", "Before, %", "After, %", "Gain", "In the fit"};
+    QT_TRANSLATE_NOOP("FitGhostModel", "Counts"),
+    QT_TRANSLATE_NOOP("FitGhostModel", "Signal/noise"),
+    QT_TRANSLATE_NOOP("FitGhostModel", "Before, %"),
+    QT_TRANSLATE_NOOP("FitGhostModel", "After, %"),
+    QT_TRANSLATE_NOOP("FitGhostModel", "Gain"),
+    QT_TRANSLATE_NOOP("FitGhostModel", "In the fit")};
 constexpr std::array<const char*, FitGhostModel::column_count> tips = {
-    "A ghost by its two surfaces; only what is marked counts in the fit",
-    "√Σ (model / σ)² over the samples of the photograph that shows it best",
-    "Its share of the model's light on the samples, before the fit",
-    "Its share of the model's light on the samples, after the fit",
-    "Its light in the photograph over the fitted model's, all ghosts unmixed together",
-    "Below the noise: left out by the fit, with the most that its signal to noise can be, its "
-    "coatings six times as bright as at the start"};
+    QT_TRANSLATE_NOOP("FitGhostModel",
+                      "A ghost by its two surfaces; only what is marked counts in the fit"),
+    QT_TRANSLATE_NOOP("FitGhostModel",
+                      "√Σ (model / σ)² over the samples of the photograph that shows it best"),
+    QT_TRANSLATE_NOOP("FitGhostModel",
+                      "Its share of the model's light on the samples, before the fit"),
+    QT_TRANSLATE_NOOP("FitGhostModel",
+                      "Its share of the model's light on the samples, after the fit"),
+    QT_TRANSLATE_NOOP(
+        "FitGhostModel",
+        "Its light in the photograph over the fitted model's, all ghosts unmixed together"),
+    QT_TRANSLATE_NOOP(
+        "FitGhostModel",
+        "Below the noise: left out by the fit, with the most that its signal to noise can be, its "
+        "coatings six times as bright as at the start")};
 
 }  // namespace
 
@@ -100,7 +113,8 @@ QVariant FitGhostModel::headerData(int section, Qt::Orientation orientation, int
     }
     const auto at = static_cast<std::size_t>(section);
     const bool is_text = section == ghost || section == fate;
-    return column_header(titles[at], tips[at], is_text ? Qt::AlignLeft : Qt::AlignRight, role);
+    return column_header("FitGhostModel", titles[at], tips[at],
+                         is_text ? Qt::AlignLeft : Qt::AlignRight, role);
 }
 
 Qt::ItemFlags FitGhostModel::flags(const QModelIndex& index) const {

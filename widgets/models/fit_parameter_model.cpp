@@ -13,19 +13,32 @@ namespace ghostlight {
 namespace {
 
 constexpr std::array<const char*, FitParameterModel::column_count> titles = {
-    "Varies", "", "Start", "Lower", "Upper", "Prior ±", "Fitted", "Std. error", "95 %", "Known"};
+    QT_TRANSLATE_NOOP("FitParameterModel", "Varies"),
+    "",
+    QT_TRANSLATE_NOOP("FitParameterModel", "Start"),
+    QT_TRANSLATE_NOOP("FitParameterModel", "Lower"),
+    QT_TRANSLATE_NOOP("FitParameterModel", "Upper"),
+    QT_TRANSLATE_NOOP("FitParameterModel", "Prior ±"),
+    QT_TRANSLATE_NOOP("FitParameterModel", "Fitted"),
+    QT_TRANSLATE_NOOP("FitParameterModel", "Std. error"),
+    "95 %",
+    QT_TRANSLATE_NOOP("FitParameterModel", "Known")};
 constexpr std::array<const char*, FitParameterModel::column_count> tips = {
-    "A number of the lens; only what is marked is varied",
-    "Unit",
-    "The lens's own value, where the fit begins",
-    "The fit stays above this",
-    "The fit stays below this",
-    "Standard deviation of what the shop makes, about the start",
-    "What explains the photographs best",
-    "Standard error, widened for the misfit",
-    "95 % interval",
-    "Determined: narrower than half its prior. Weak: narrower, but by less. Prior: the photographs "
-    "say nothing. Not felt: no visible ghost depends on it. At bound: its error means little"};
+    QT_TRANSLATE_NOOP("FitParameterModel", "A number of the lens; only what is marked is varied"),
+    QT_TRANSLATE_NOOP("FitParameterModel", "Unit"),
+    QT_TRANSLATE_NOOP("FitParameterModel", "The lens's own value, where the fit begins"),
+    QT_TRANSLATE_NOOP("FitParameterModel", "The fit stays above this"),
+    QT_TRANSLATE_NOOP("FitParameterModel", "The fit stays below this"),
+    QT_TRANSLATE_NOOP("FitParameterModel",
+                      "Standard deviation of what the shop makes, about the start"),
+    QT_TRANSLATE_NOOP("FitParameterModel", "What explains the photographs best"),
+    QT_TRANSLATE_NOOP("FitParameterModel", "Standard error, widened for the misfit"),
+    QT_TRANSLATE_NOOP("FitParameterModel", "95 % interval; P by the number's profile likelihood"),
+    QT_TRANSLATE_NOOP(
+        "FitParameterModel",
+        "Determined: narrower than half its prior. Weak: narrower, but by less. Prior: the "
+        "photographs "
+        "say nothing. Not felt: no visible ghost depends on it. At bound: its error means little")};
 
 QColor color_of(FitKnowledge knowledge) {
     const Palette& colors = current_palette();
@@ -83,7 +96,8 @@ QVariant FitParameterModel::data(const QModelIndex& index, int role) const {
         if (index.column() == known && with_errors) {
             return color_of(number->knowledge);
         }
-        if (!row.varies || index.column() == unit_of) {
+        if (!row.varies || index.column() == unit_of ||
+            (index.column() == interval && !has_error)) {
             return current_palette().dim;
         }
         return {};
@@ -121,6 +135,18 @@ QVariant FitParameterModel::data(const QModelIndex& index, int role) const {
         case error:
             return has_error ? significant(number->standard_error, 2) : QString();
         case interval:
+            if (row.is_profiled && !has_error) {
+                return tr("profile");
+            }
+            if (has_error) {
+                const auto profile =
+                    std::ranges::find(profiles_, static_cast<std::size_t>(number - numbers_.data()),
+                                      &FittedProfile::number);
+                if (profile != profiles_.end()) {
+                    return QStringLiteral("%1 … %2 P")
+                        .arg(significant(profile->low, 4), significant(profile->high, 4));
+                }
+            }
             return has_error ? QStringLiteral("%1 … %2").arg(significant(number->low, 4),
                                                              significant(number->high, 4))
                              : QString();
@@ -138,7 +164,8 @@ QVariant FitParameterModel::headerData(int section, Qt::Orientation orientation,
     }
     const auto at = static_cast<std::size_t>(section);
     const bool is_text = section <= unit_of || section == known;
-    return column_header(titles[at], tips[at], is_text ? Qt::AlignLeft : Qt::AlignRight, role);
+    return column_header("FitParameterModel", titles[at], tips[at],
+                         is_text ? Qt::AlignLeft : Qt::AlignRight, role);
 }
 
 Qt::ItemFlags FitParameterModel::flags(const QModelIndex& index) const {

@@ -2,6 +2,7 @@
 
 #include <QAbstractTableModel>
 
+#include <utility>
 #include <vector>
 
 #include "core/fit/flare_fit.h"
@@ -29,6 +30,7 @@ class FitParameterModel : public QAbstractTableModel {
     struct Row {
         FitParameter parameter;
         bool varies = true;
+        bool is_profiled = false;
     };
     using QAbstractTableModel::QAbstractTableModel;
 
@@ -43,6 +45,8 @@ class FitParameterModel : public QAbstractTableModel {
     const std::vector<Row>& rows() const { return rows_; }
     /// Values without errors while a fit goes on; with them when it is done. Empty: none.
     void set_numbers(std::vector<FittedNumber> numbers, bool have_errors);
+    /// Those of the numbers that they were asked of.
+    void set_profiles(std::vector<FittedProfile> profiles) { profiles_ = std::move(profiles); }
 
    Q_SIGNALS:
     /// A bound, a prior or a mark was typed; the rows are as they were until they are set anew.
@@ -53,6 +57,7 @@ class FitParameterModel : public QAbstractTableModel {
     const FittedNumber* number_of(const FitParameter& parameter) const;
     std::vector<Row> rows_;
     std::vector<FittedNumber> numbers_;
+    std::vector<FittedProfile> profiles_;
     bool have_errors_ = false;
 };
 

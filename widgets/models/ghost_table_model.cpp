@@ -25,38 +25,83 @@ struct ColumnText {
 };
 
 constexpr std::array<ColumnText, GhostTableModel::column_count> columns = {{
-    {"Ghost", "ghost", "name", "First and second reflection: 5-3 turns at surface 5, then at 3."},
-    {"Flux mm²", "flux_mm2", "flux",
-     "Effective collecting area: the ghost's flux over the light's irradiance E0,\n"
-     "polarisation carried along the path."},
-    {"", "", "flux", "Flux on a logarithmic scale, four decades below the strongest ghost."},
-    {"Rel.", "relative_flux", "relative flux", "Flux over that of the direct image."},
-    {"Peak E0", "peak_per_e0", "peak",
-     "Largest mean irradiance over a cell of sensor width / 1280, in units of E0."},
-    {"x mm", "centroid_x_mm", "x", "Centroid on the sensor plane, horizontal."},
-    {"y mm", "centroid_y_mm", "y",
-     "Centroid on the sensor plane, vertical; pictures are upright,\n"
-     "so that their top is −y."},
-    {"RMS mm", "rms_radius_mm", "RMS radius", "Root mean square radius about the centroid."},
-    {"On sensor %", "on_sensor", "share on the sensor",
-     "Share of the flux inside the sensor's rectangle."},
-    {"R1 %", "reflectance_1", "first reflectance", "Mean reflectance at the first reflection."},
-    {"R2 %", "reflectance_2", "second reflectance", "Mean reflectance at the second reflection."},
-    {"Angle 1 °", "incidence_1_deg", "first angle of incidence",
-     "Mean angle of incidence at the first reflection, in the medium the light comes from."},
-    {"Angle 2 °", "incidence_2_deg", "second angle of incidence",
-     "Mean angle of incidence at the second reflection, in the medium the light comes from."},
-    {"Focus mm", "focus_from_sensor_mm", "ghost focus",
-     "Where a collimated beam meets along the ghost's path, to first order;\n"
-     "negative before the sensor."},
-    {"Width mm", "x_extent_mm", "width", "Extent on the sensor plane, horizontal."},
-    {"Height mm", "y_extent_mm", "height", "Extent on the sensor plane, vertical."},
-    {"Flux A mm²", "flux_a_mm2", "flux of A", "The same ghost's flux in the pinned lens A."},
-    {"B − A mm²", "flux_difference_mm2", "difference from A",
-     "What the ghost gained since A was pinned; negative where it is weaker now."},
-    {"A → B", "flux_ratio", "change from A",
-     "Flux now over flux of A: × 0.5 is half as strong as in the pinned lens."},
-    {"Rays", "rays", "rays", "Rays traced for this row's numbers."},
+    {QT_TRANSLATE_NOOP("GhostTableModel", "Ghost"), "ghost",
+     QT_TRANSLATE_NOOP("GhostTableModel", "name"),
+     QT_TRANSLATE_NOOP("GhostTableModel",
+                       "First and second reflection: 5-3 turns at surface 5, then at 3.")},
+    {QT_TRANSLATE_NOOP("GhostTableModel", "Flux mm²"), "flux_mm2",
+     QT_TRANSLATE_NOOP("GhostTableModel", "flux"),
+     QT_TRANSLATE_NOOP(
+         "GhostTableModel",
+         "Effective collecting area: the ghost's flux over the light's irradiance E0,\n"
+         "polarisation carried along the path.")},
+    {"", "", QT_TRANSLATE_NOOP("GhostTableModel", "flux"),
+     QT_TRANSLATE_NOOP("GhostTableModel",
+                       "Flux on a logarithmic scale, four decades below the strongest ghost.")},
+    {QT_TRANSLATE_NOOP("GhostTableModel", "Rel."), "relative_flux",
+     QT_TRANSLATE_NOOP("GhostTableModel", "relative flux"),
+     QT_TRANSLATE_NOOP("GhostTableModel", "Flux over that of the direct image.")},
+    {QT_TRANSLATE_NOOP("GhostTableModel", "Peak E0"), "peak_per_e0",
+     QT_TRANSLATE_NOOP("GhostTableModel", "peak"),
+     QT_TRANSLATE_NOOP(
+         "GhostTableModel",
+         "Largest mean irradiance over a cell of sensor width / 1280, in units of E0.")},
+    {QT_TRANSLATE_NOOP("GhostTableModel", "x mm"), "centroid_x_mm",
+     QT_TRANSLATE_NOOP("GhostTableModel", "x"),
+     QT_TRANSLATE_NOOP("GhostTableModel", "Centroid on the sensor plane, horizontal.")},
+    {QT_TRANSLATE_NOOP("GhostTableModel", "y mm"), "centroid_y_mm",
+     QT_TRANSLATE_NOOP("GhostTableModel", "y"),
+     QT_TRANSLATE_NOOP("GhostTableModel",
+                       "Centroid on the sensor plane, vertical; pictures are upright,\n"
+                       "so that their top is −y.")},
+    {QT_TRANSLATE_NOOP("GhostTableModel", "RMS mm"), "rms_radius_mm",
+     QT_TRANSLATE_NOOP("GhostTableModel", "RMS radius"),
+     QT_TRANSLATE_NOOP("GhostTableModel", "Root mean square radius about the centroid.")},
+    {QT_TRANSLATE_NOOP("GhostTableModel", "On sensor %"), "on_sensor",
+     QT_TRANSLATE_NOOP("GhostTableModel", "share on the sensor"),
+     QT_TRANSLATE_NOOP("GhostTableModel", "Share of the flux inside the sensor's rectangle.")},
+    {QT_TRANSLATE_NOOP("GhostTableModel", "R1 %"), "reflectance_1",
+     QT_TRANSLATE_NOOP("GhostTableModel", "first reflectance"),
+     QT_TRANSLATE_NOOP("GhostTableModel", "Mean reflectance at the first reflection.")},
+    {QT_TRANSLATE_NOOP("GhostTableModel", "R2 %"), "reflectance_2",
+     QT_TRANSLATE_NOOP("GhostTableModel", "second reflectance"),
+     QT_TRANSLATE_NOOP("GhostTableModel", "Mean reflectance at the second reflection.")},
+    {QT_TRANSLATE_NOOP("GhostTableModel", "Angle 1 °"), "incidence_1_deg",
+     QT_TRANSLATE_NOOP("GhostTableModel", "first angle of incidence"),
+     QT_TRANSLATE_NOOP(
+         "GhostTableModel",
+         "Mean angle of incidence at the first reflection, in the medium the light comes from.")},
+    {QT_TRANSLATE_NOOP("GhostTableModel", "Angle 2 °"), "incidence_2_deg",
+     QT_TRANSLATE_NOOP("GhostTableModel", "second angle of incidence"),
+     QT_TRANSLATE_NOOP(
+         "GhostTableModel",
+         "Mean angle of incidence at the second reflection, in the medium the light comes from.")},
+    {QT_TRANSLATE_NOOP("GhostTableModel", "Focus mm"), "focus_from_sensor_mm",
+     QT_TRANSLATE_NOOP("GhostTableModel", "ghost focus"),
+     QT_TRANSLATE_NOOP("GhostTableModel",
+                       "Where a collimated beam meets along the ghost's path, to first order;\n"
+                       "negative before the sensor.")},
+    {QT_TRANSLATE_NOOP("GhostTableModel", "Width mm"), "x_extent_mm",
+     QT_TRANSLATE_NOOP("GhostTableModel", "width"),
+     QT_TRANSLATE_NOOP("GhostTableModel", "Extent on the sensor plane, horizontal.")},
+    {QT_TRANSLATE_NOOP("GhostTableModel", "Height mm"), "y_extent_mm",
+     QT_TRANSLATE_NOOP("GhostTableModel", "height"),
+     QT_TRANSLATE_NOOP("GhostTableModel", "Extent on the sensor plane, vertical.")},
+    {QT_TRANSLATE_NOOP("GhostTableModel", "Flux A mm²"), "flux_a_mm2",
+     QT_TRANSLATE_NOOP("GhostTableModel", "flux of A"),
+     QT_TRANSLATE_NOOP("GhostTableModel", "The same ghost's flux in the pinned lens A.")},
+    {QT_TRANSLATE_NOOP("GhostTableModel", "B − A mm²"), "flux_difference_mm2",
+     QT_TRANSLATE_NOOP("GhostTableModel", "difference from A"),
+     QT_TRANSLATE_NOOP(
+         "GhostTableModel",
+         "What the ghost gained since A was pinned; negative where it is weaker now.")},
+    {QT_TRANSLATE_NOOP("GhostTableModel", "A → B"), "flux_ratio",
+     QT_TRANSLATE_NOOP("GhostTableModel", "change from A"),
+     QT_TRANSLATE_NOOP("GhostTableModel",
+                       "Flux now over flux of A: × 0.5 is half as strong as in the pinned lens.")},
+    {QT_TRANSLATE_NOOP("GhostTableModel", "Rays"), "rays",
+     QT_TRANSLATE_NOOP("GhostTableModel", "rays"),
+     QT_TRANSLATE_NOOP("GhostTableModel", "Rays traced for this row's numbers.")},
 }};
 
 /// A centroid closer to the axis than this is on it, but for rounding.
@@ -66,7 +111,8 @@ constexpr double bar_decades = 4.0;
 }  // namespace
 
 QString sorted_by(int column) {
-    return QString::fromUtf8(columns[static_cast<std::size_t>(column)].order);
+    return QCoreApplication::translate("GhostTableModel",
+                                       columns[static_cast<std::size_t>(column)].order);
 }
 
 QString column_id(int column) {
@@ -75,8 +121,9 @@ QString column_id(int column) {
 
 QString column_title(int column) {
     return column == GhostTableModel::magnitude
-               ? QStringLiteral("Bar")
-               : QString::fromUtf8(columns[static_cast<std::size_t>(column)].header);
+               ? GhostTableModel::tr("Bar")
+               : QCoreApplication::translate("GhostTableModel",
+                                             columns[static_cast<std::size_t>(column)].header);
 }
 
 bool is_of_comparison(int column) {
@@ -203,7 +250,7 @@ QVariant GhostTableModel::data(const QModelIndex& index, int role) const {
                 return QStringLiteral("%1 ± %2 mm²%3")
                     .arg(significant(ghost_row.flux_mm2, 6),
                          significant(ghost_row.flux_error_mm2, 2),
-                         ghost_row.converged ? "" : "\nThe tolerance was not reached.");
+                         ghost_row.converged ? QString() : tr("\nThe tolerance was not reached."));
             }
             return {};
         default:
@@ -216,7 +263,7 @@ QVariant GhostTableModel::headerData(int section, Qt::Orientation orientation, i
         return {};
     }
     const ColumnText& column = columns[static_cast<std::size_t>(section)];
-    return column_header(column.header, column.tip,
+    return column_header("GhostTableModel", column.header, column.tip,
                          section == ghost ? Qt::AlignLeft : Qt::AlignRight, role);
 }
 

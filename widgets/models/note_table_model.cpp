@@ -21,15 +21,23 @@ struct ColumnText {
 };
 
 constexpr std::array<ColumnText, NoteTableModel::column_count> columns = {{
-    {"Where", "The place in the file. Click a row that is about a surface to go to that surface."},
-    {"What became",
-     "read, converted to another unit or form, assumed where the file says nothing,\n"
-     "left out, or taken as it is and noticed as odd."},
-    {"For flare",
-     "'matters': changes where ghosts land, or how bright they are.\n"
-     "'mend': the lens cannot be traced until this is mended."},
-    {"What", "What was found."},
-    {"Proposal", "What can be done about it."},
+    {QT_TRANSLATE_NOOP("NoteTableModel", "Where"),
+     QT_TRANSLATE_NOOP(
+         "NoteTableModel",
+         "The place in the file. Click a row that is about a surface to go to that surface.")},
+    {QT_TRANSLATE_NOOP("NoteTableModel", "What became"),
+     QT_TRANSLATE_NOOP(
+         "NoteTableModel",
+         "read, converted to another unit or form, assumed where the file says nothing,\n"
+         "left out, or taken as it is and noticed as odd.")},
+    {QT_TRANSLATE_NOOP("NoteTableModel", "For flare"),
+     QT_TRANSLATE_NOOP("NoteTableModel",
+                       "'matters': changes where ghosts land, or how bright they are.\n"
+                       "'mend': the lens cannot be traced until this is mended.")},
+    {QT_TRANSLATE_NOOP("NoteTableModel", "What"),
+     QT_TRANSLATE_NOOP("NoteTableModel", "What was found.")},
+    {QT_TRANSLATE_NOOP("NoteTableModel", "Proposal"),
+     QT_TRANSLATE_NOOP("NoteTableModel", "What can be done about it.")},
 }};
 
 bool matters_to(const Note& note) {
@@ -46,8 +54,8 @@ QString text_of(std::string_view text) {
 }
 
 QString importance(const Note& note) {
-    return note.severity == Note::Severity::error ? QStringLiteral("mend")
-           : note.matters_for_flare               ? QStringLiteral("matters")
+    return note.severity == Note::Severity::error ? NoteTableModel::tr("mend")
+           : note.matters_for_flare               ? NoteTableModel::tr("matters")
                                                   : QString();
 }
 
@@ -139,7 +147,7 @@ QVariant NoteTableModel::headerData(int section, Qt::Orientation orientation, in
         return {};
     }
     const ColumnText& column = columns[static_cast<std::size_t>(section)];
-    return column_header(column.header, column.tip, Qt::AlignLeft, role);
+    return column_header("NoteTableModel", column.header, column.tip, Qt::AlignLeft, role);
 }
 
 void NoteFilter::set_only_what_matters(bool only) {

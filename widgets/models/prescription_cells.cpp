@@ -1,5 +1,7 @@
 #include "widgets/models/prescription_cells.h"
 
+#include <QCoreApplication>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -16,6 +18,11 @@
 namespace ghostlight {
 
 namespace {
+
+/// Texts for people, as translators know them.
+struct PrescriptionCells {
+    Q_DECLARE_TR_FUNCTIONS(PrescriptionCells)
+};
 
 using Column = PrescriptionColumns;
 
@@ -61,7 +68,8 @@ BaseCurve read_shown_curve(const QString& text, bool curvatures) {
     if (!curvatures || plain.isEmpty() || (is_word && !plain.startsWith("sqrt"))) {
         return read_curve(text);
     }
-    const double per_mm = read_number(text, "a curvature in 1/mm", CellUnit::per_mm);
+    const double per_mm =
+        read_number(text, PrescriptionCells::tr("a curvature in 1/mm"), CellUnit::per_mm);
     return per_mm == 0.0 ? BaseCurve(Plane{}) : BaseCurve(Curvature{per_mm});
 }
 
@@ -80,8 +88,9 @@ void put_text(Prescription& lens, const ShownLens& shown, std::size_t row, int c
             surface.curve = read_shown_curve(text, shown.curvatures);
             break;
         case Column::thickness:
-            lens = with_thickness(std::move(lens), shown.configuration, row,
-                                  read_number(text, "a thickness in mm", CellUnit::mm));
+            lens = with_thickness(
+                std::move(lens), shown.configuration, row,
+                read_number(text, PrescriptionCells::tr("a thickness in mm"), CellUnit::mm));
             break;
         case Column::medium:
             surface.medium_after = read_medium(text, bundled_glasses());
@@ -89,14 +98,19 @@ void put_text(Prescription& lens, const ShownLens& shown, std::size_t row, int c
         case Column::semi_diameter:
             surface.semi_diameter_sized = is_automatic(text);
             if (!surface.semi_diameter_sized) {
-                surface.semi_diameter_mm =
-                    read_positive(text, "a semi-diameter in mm, above 0, or 'auto'", CellUnit::mm);
+                surface.semi_diameter_mm = read_positive(
+                    text, PrescriptionCells::tr("a semi-diameter in mm, above 0, or 'auto'"),
+                    CellUnit::mm);
             } else if (row == lens.stop.surface) {
-                throw Error("the stop's own radius is what sizes the beam: give it a number");
+                throw Error(PrescriptionCells::tr(
+                                "the stop's own radius is what sizes the beam: give it a number")
+                                .toStdString());
             }
             break;
         case Column::conic:
-            surface.conic = text.trimmed().isEmpty() ? 0.0 : read_number(text, "a conic constant");
+            surface.conic = text.trimmed().isEmpty()
+                                ? 0.0
+                                : read_number(text, PrescriptionCells::tr("a conic constant"));
             break;
         case Column::aspheric:
             surface.aspheric = read_aspheric(text);
@@ -108,7 +122,7 @@ void put_text(Prescription& lens, const ShownLens& shown, std::size_t row, int c
             surface.comment = text.trimmed().toStdString();
             break;
         default:
-            throw Error("this cell cannot be edited");
+            throw Error(PrescriptionCells::tr("this cell cannot be edited").toStdString());
     }
 }
 
@@ -145,7 +159,7 @@ QString cell_text(const ShownLens& shown, std::size_t row, int column) {
             return QString::number(row + 1);
         case Column::radius:
             return row == shown.lens.stop.surface && std::holds_alternative<Plane>(surface.curve)
-                       ? QStringLiteral("stop")
+                       ? PrescriptionCells::tr("stop")
                        : shown_curve(surface.curve, shown.curvatures);
         case Column::thickness:
             return at_least_decimals(thickness_mm(shown.lens, shown.configuration, row), 3);
@@ -178,7 +192,7 @@ QString cell_text(const ShownLens& shown, std::size_t row, int column) {
             }
             const bool glass_before = !is_air(medium_before(shown.lens, row));
             const bool glass_after = !is_air(surface.medium_after);
-            return glass_before && glass_after   ? QStringLiteral("cemented")
+            return glass_before && glass_after   ? PrescriptionCells::tr("cemented")
                    : glass_before || glass_after ? QStringLiteral("none")
                                                  : QString();
         }
@@ -216,9 +230,10 @@ QString cell_tool_tip(const ShownLens& shown, std::size_t row, int column) {
     if (of_glass && is_unknown(surface.medium_after)) {
         const QStringList names = offered_glasses(surface.medium_after);
         return why_unknown(shown.lens, row) +
-               (names.isEmpty() ? QString()
-                                : QStringLiteral("\nNearest names: %1").arg(names.join(", "))) +
-               QStringLiteral("\nType a catalogue name, or nd / Vd.");
+               (names.isEmpty()
+                    ? QString()
+                    : PrescriptionCells::tr("\nNearest names: %1").arg(names.join(", "))) +
+               PrescriptionCells::tr("\nType a catalogue name, or nd / Vd.");
     }
     if (of_glass && !is_air(surface.medium_after)) {
         try {
@@ -231,25 +246,26 @@ QString cell_tool_tip(const ShownLens& shown, std::size_t row, int column) {
     }
     if (column == Column::radius && !std::holds_alternative<Plane>(surface.curve)) {
         const double c = curvature_per_mm(surface.curve);
-        return c == 0.0           ? QString()
-               : shown.curvatures ? QStringLiteral("Radius %1 mm").arg(significant(1.0 / c, 7))
-                                  : QStringLiteral("Curvature %1 /mm").arg(significant(c, 7));
+        return c == 0.0 ? QString()
+               : shown.curvatures
+                   ? PrescriptionCells::tr("Radius %1 mm").arg(significant(1.0 / c, 7))
+                   : PrescriptionCells::tr("Curvature %1 /mm").arg(significant(c, 7));
     }
     if (column == Column::semi_diameter && row != shown.lens.stop.surface) {
         return surface.semi_diameter_sized
-                   ? QStringLiteral(
+                   ? PrescriptionCells::tr(
                          "Automatic: lets the direct beam through, and follows edits.\n"
                          "Type a number to fix it.")
-                   : QStringLiteral("Fixed. Type 'auto' to let the direct beam size it.");
+                   : PrescriptionCells::tr("Fixed. Type 'auto' to let the direct beam size it.");
     }
     if (column == Column::thickness && overrides_thickness(shown.lens, shown.configuration, row)) {
-        return QStringLiteral("Set by the configuration %1; as listed %2 mm")
+        return PrescriptionCells::tr("Set by the configuration %1; as listed %2 mm")
             .arg(QString::fromStdString(shown.configuration), shortest(surface.thickness_mm));
     }
     if (column == Column::thickness && row + 1 == shown.lens.surfaces.size()) {
         return shown.lens.sensor.at_paraxial_focus
-                   ? QStringLiteral("The sensor is at the paraxial focus instead.")
-                   : QStringLiteral("To the sensor");
+                   ? PrescriptionCells::tr("The sensor is at the paraxial focus instead.")
+                   : PrescriptionCells::tr("To the sensor");
     }
     if (column == Column::coating || column == Column::aspheric || column == Column::comment) {
         return cell_edit_text(shown, row, column);
@@ -288,13 +304,15 @@ std::vector<CellNumber> cell_numbers(const ShownLens& shown, std::size_t row, in
         case Column::radius: {
             const double c = curvature_per_mm(surface.curve);
             if (shown.curvatures || c == 0.0) {
-                return {{"Curvature", "/mm", c, std::max(share * std::abs(c), 0.005)}};
+                return {{PrescriptionCells::tr("Curvature"), "/mm", c,
+                         std::max(share * std::abs(c), 0.005)}};
             }
-            return {{"Radius", "mm", 1.0 / c, share / std::abs(c)}};
+            return {{PrescriptionCells::tr("Radius"), "mm", 1.0 / c, share / std::abs(c)}};
         }
         case Column::thickness: {
             const double mm = thickness_mm(shown.lens, shown.configuration, row);
-            return {{"Thickness", "mm", mm, std::max(share * std::abs(mm), 1.0)}};
+            return {{PrescriptionCells::tr("Thickness"), "mm", mm,
+                     std::max(share * std::abs(mm), 1.0)}};
         }
         case Column::medium: {
             const Medium& medium = surface.medium_after;
@@ -303,15 +321,15 @@ std::vector<CellNumber> cell_numbers(const ShownLens& shown, std::size_t row, in
             }
             const auto* constant = std::get_if<ConstantIndex>(&medium.dispersion);
             if (constant != nullptr && medium.name.empty() && !is_air(medium)) {
-                return {{"Index", "", constant->n, 0.1}};
+                return {{PrescriptionCells::tr("Index"), "", constant->n, 0.1}};
             }
             return {};
         }
         case Column::semi_diameter:
-            return {{"Semi-diameter", "mm", surface.semi_diameter_mm,
+            return {{PrescriptionCells::tr("Semi-diameter"), "mm", surface.semi_diameter_mm,
                      share * surface.semi_diameter_mm}};
         case Column::conic:
-            return {{"Conic", "", surface.conic, 1.0}};
+            return {{PrescriptionCells::tr("Conic"), "", surface.conic, 1.0}};
         case Column::aspheric: {
             std::vector<CellNumber> terms;
             // Two more than there are, so that a new one can be drawn up from 0.
@@ -330,7 +348,8 @@ std::vector<CellNumber> cell_numbers(const ShownLens& shown, std::size_t row, in
         case Column::coating:
             if (const auto* quarter = std::get_if<QuarterWave>(&surface.coating)) {
                 return {{"λ0", "nm", quarter->center_nm, 200.0},
-                        {"Thickness factor", "", quarter->thickness_factor, 0.5}};
+                        {PrescriptionCells::tr("Thickness factor"), "", quarter->thickness_factor,
+                         0.5}};
             }
             if (const auto* fixed = std::get_if<ConstantReflectance>(&surface.coating)) {
                 return {{"R", "", fixed->reflectance, 0.05}};
@@ -339,7 +358,7 @@ std::vector<CellNumber> cell_numbers(const ShownLens& shown, std::size_t row, in
                 std::vector<CellNumber> layers;
                 for (std::size_t k = 0; k < stack->layers.size(); ++k) {
                     const double nm = stack->layers[k].thickness_nm;
-                    layers.push_back({QStringLiteral("Layer %1").arg(k + 1), "nm", nm,
+                    layers.push_back({PrescriptionCells::tr("Layer %1").arg(k + 1), "nm", nm,
                                       std::max(0.5 * nm, 20.0)});
                 }
                 return layers;
@@ -356,14 +375,14 @@ Prescription with_cell_number(const ShownLens& shown, std::size_t row, int colum
     Surface& surface = lens.surfaces.at(row);
     const auto numbers = cell_numbers(shown, row, column);
     if (which >= numbers.size()) {
-        throw Error("there is no number in this cell");
+        throw Error(PrescriptionCells::tr("there is no number in this cell").toStdString());
     }
     switch (column) {
         case Column::radius:
             if (numbers[0].unit == "/mm") {
                 surface.curve = Curvature{value};
             } else if (value == 0.0 || (value < 0.0) != (numbers[0].value < 0.0)) {
-                throw Error("a radius cannot be 0");
+                throw Error(PrescriptionCells::tr("a radius cannot be 0").toStdString());
             } else {
                 surface.curve = Radius{value};
             }
@@ -376,7 +395,7 @@ Prescription with_cell_number(const ShownLens& shown, std::size_t row, int colum
             }
             surface.medium_after.name.clear();  // it is no longer the glass of that name
             if (numbers[which].name != "Vd" && value < 1.0) {
-                throw Error("an index is at least 1");
+                throw Error(PrescriptionCells::tr("an index is at least 1").toStdString());
             }
             break;
         case Column::aspheric:

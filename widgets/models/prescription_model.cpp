@@ -27,34 +27,59 @@ struct ColumnText {
 };
 
 constexpr std::array<ColumnText, PrescriptionModel::column_count> columns = {{
-    {"#", "", "Surfaces count from 1, in the order in which light meets them."},
-    {"Radius mm", "radius",
-     "Positive when the centre of curvature lies towards the sensor.\n"
-     "Empty or 'plane' for a plane; 'c=0.01' gives a curvature in 1/mm.\n"
-     "Numbers may be worked out: =2*13.2, 0.5in, 1/3."},
-    {"Thickness mm", "thickness",
-     "To the next surface; the last one to the sensor.\n"
-     "In a configuration that sets it, its own value.\n"
-     "Numbers may be worked out: =2*13.2, 0.5in, 1/3."},
-    {"Glass", "glass",
-     "What follows the surface: a catalogue name, 'nd / Vd' or an index.\nEmpty for air."},
-    {"nd / Vd", "", "Index at the d line, 587.56 nm, and Abbe number of the named glass."},
-    {"Semi-dia. mm", "semi-diameter",
-     "Clear radius. Rays beyond it are clipped.\n"
-     "A number fixes it; 'auto' lets the direct beam size it, marked A."},
-    {"Conic", "conic constant", "0 sphere, −1 paraboloid, below −1 hyperboloid."},
-    {"Asphere", "aspheric terms", "Even terms of the sag, A4 r⁴ + A6 r⁶ + …, in mm^(1−power)."},
-    {"Coating", "coating",
-     "none, MgF2 λ/4 550, 1.38 λ/4 550, ideal λ/4 550,\n"
-     "or a stack from the light's side: 1.38:96.4 | 2.1:50 (nm).\n"
-     "The chip is the reflected colour under the chosen light."},
-    {"Comment", "comment", "Words of your own; they change nothing."},
+    {"#", "",
+     QT_TRANSLATE_NOOP("PrescriptionModel",
+                       "Surfaces count from 1, in the order in which light meets them.")},
+    {QT_TRANSLATE_NOOP("PrescriptionModel", "Radius mm"),
+     QT_TRANSLATE_NOOP("PrescriptionModel", "radius"),
+     QT_TRANSLATE_NOOP("PrescriptionModel",
+                       "Positive when the centre of curvature lies towards the sensor.\n"
+                       "Empty or 'plane' for a plane; 'c=0.01' gives a curvature in 1/mm.\n"
+                       "Numbers may be worked out: =2*13.2, 0.5in, 1/3.")},
+    {QT_TRANSLATE_NOOP("PrescriptionModel", "Thickness mm"),
+     QT_TRANSLATE_NOOP("PrescriptionModel", "thickness"),
+     QT_TRANSLATE_NOOP("PrescriptionModel",
+                       "To the next surface; the last one to the sensor.\n"
+                       "In a configuration that sets it, its own value.\n"
+                       "Numbers may be worked out: =2*13.2, 0.5in, 1/3.")},
+    {QT_TRANSLATE_NOOP("PrescriptionModel", "Glass"),
+     QT_TRANSLATE_NOOP("PrescriptionModel", "glass"),
+     QT_TRANSLATE_NOOP(
+         "PrescriptionModel",
+         "What follows the surface: a catalogue name, 'nd / Vd' or an index.\nEmpty for air.")},
+    {QT_TRANSLATE_NOOP("PrescriptionModel", "nd / Vd"), "",
+     QT_TRANSLATE_NOOP("PrescriptionModel",
+                       "Index at the d line, 587.56 nm, and Abbe number of the named glass.")},
+    {QT_TRANSLATE_NOOP("PrescriptionModel", "Semi-dia. mm"),
+     QT_TRANSLATE_NOOP("PrescriptionModel", "semi-diameter"),
+     QT_TRANSLATE_NOOP("PrescriptionModel",
+                       "Clear radius. Rays beyond it are clipped.\n"
+                       "A number fixes it; 'auto' lets the direct beam size it, marked A.")},
+    {QT_TRANSLATE_NOOP("PrescriptionModel", "Conic"),
+     QT_TRANSLATE_NOOP("PrescriptionModel", "conic constant"),
+     QT_TRANSLATE_NOOP("PrescriptionModel", "0 sphere, −1 paraboloid, below −1 hyperboloid.")},
+    {QT_TRANSLATE_NOOP("PrescriptionModel", "Asphere"),
+     QT_TRANSLATE_NOOP("PrescriptionModel", "aspheric terms"),
+     QT_TRANSLATE_NOOP("PrescriptionModel",
+                       "Even terms of the sag, A4 r⁴ + A6 r⁶ + …, in mm^(1−power).")},
+    {QT_TRANSLATE_NOOP("PrescriptionModel", "Coating"),
+     QT_TRANSLATE_NOOP("PrescriptionModel", "coating"),
+     QT_TRANSLATE_NOOP("PrescriptionModel",
+                       "none, MgF2 λ/4 550, 1.38 λ/4 550, ideal λ/4 550,\n"
+                       "or a stack from the light's side: 1.38:96.4 | 2.1:50 (nm).\n"
+                       "The chip is the reflected colour under the chosen light.")},
+    {QT_TRANSLATE_NOOP("PrescriptionModel", "Comment"),
+     QT_TRANSLATE_NOOP("PrescriptionModel", "comment"),
+     QT_TRANSLATE_NOOP("PrescriptionModel", "Words of your own; they change nothing.")},
 }};
 
 constexpr ColumnText curvature_column = {
-    "Curvature /mm", "curvature",
-    "1/R. Positive when the centre of curvature lies towards the sensor; 0 for a plane.\n"
-    "'r=50' gives a radius in mm. Numbers may be worked out: 1/50, 1/2in."};
+    QT_TRANSLATE_NOOP("PrescriptionModel", "Curvature /mm"),
+    QT_TRANSLATE_NOOP("PrescriptionModel", "curvature"),
+    QT_TRANSLATE_NOOP(
+        "PrescriptionModel",
+        "1/R. Positive when the centre of curvature lies towards the sensor; 0 for a plane.\n"
+        "'r=50' gives a radius in mm. Numbers may be worked out: 1/50, 1/2in.")};
 
 bool is_number(int column) {
     return column != PrescriptionModel::coating && column != PrescriptionModel::comment &&
@@ -71,8 +96,9 @@ bool is_unknown(const Medium& medium) {
 
 /// In the history.
 QString step_name(const QModelIndex& index) {
-    return QStringLiteral("change %1 of surface %2")
-        .arg(columns[static_cast<std::size_t>(index.column())].what)
+    return PrescriptionModel::tr("change %1 of surface %2")
+        .arg(QCoreApplication::translate("PrescriptionModel",
+                                         columns[static_cast<std::size_t>(index.column())].what))
         .arg(index.row() + 1);
 }
 
@@ -157,7 +183,7 @@ QVariant PrescriptionModel::data(const QModelIndex& index, int role) const {
         case Qt::ToolTipRole: {
             QString tip = cell_tool_tip(shown(), row, column);
             if (mark(row, column).contains('V')) {
-                tip += QStringLiteral("%1Variable in a fit").arg(tip.isEmpty() ? "" : "\n");
+                tip += tr("%1Variable in a fit").arg(tip.isEmpty() ? QString() : QString("\n"));
             }
             return tip;
         }
@@ -211,7 +237,7 @@ QVariant PrescriptionModel::headerData(int section, Qt::Orientation orientation,
     const ColumnText& column = section == radius && curvatures_
                                    ? curvature_column
                                    : columns[static_cast<std::size_t>(section)];
-    return column_header(column.header, column.tip,
+    return column_header("PrescriptionModel", column.header, column.tip,
                          is_number(section) ? Qt::AlignRight : Qt::AlignLeft, role);
 }
 
@@ -275,36 +301,36 @@ bool PrescriptionModel::attempt(const QString& text, const Edit& edit) {
 }
 
 bool PrescriptionModel::insert_after(int row) {
-    return attempt(QStringLiteral("insert surface %1").arg(row + 2), [&](Prescription lens) {
+    return attempt(tr("insert surface %1").arg(row + 2), [&](Prescription lens) {
         return with_row_inserted_after(std::move(lens), static_cast<std::size_t>(row));
     });
 }
 
 bool PrescriptionModel::remove(int row) {
-    return attempt(QStringLiteral("delete surface %1").arg(row + 1), [&](Prescription lens) {
+    return attempt(tr("delete surface %1").arg(row + 1), [&](Prescription lens) {
         return with_row_removed(std::move(lens), static_cast<std::size_t>(row));
     });
 }
 
 bool PrescriptionModel::move(int row, int to) {
-    return attempt(QStringLiteral("move surface %1").arg(row + 1), [&](Prescription lens) {
+    return attempt(tr("move surface %1").arg(row + 1), [&](Prescription lens) {
         return with_row_moved(std::move(lens), static_cast<std::size_t>(row),
                               static_cast<std::size_t>(to));
     });
 }
 
 bool PrescriptionModel::make_stop(int row) {
-    return attempt(QStringLiteral("make surface %1 the stop").arg(row + 1), [&](Prescription lens) {
+    return attempt(tr("make surface %1 the stop").arg(row + 1), [&](Prescription lens) {
         return with_stop_at(std::move(lens), static_cast<std::size_t>(row));
     });
 }
 
 bool PrescriptionModel::reverse() {
-    return attempt("reverse the lens", [](const Prescription& lens) { return reversed(lens); });
+    return attempt(tr("reverse the lens"), [](const Prescription& lens) { return reversed(lens); });
 }
 
 bool PrescriptionModel::scale(double factor) {
-    return attempt(QStringLiteral("scale the lens by %1").arg(shortest(factor)),
+    return attempt(tr("scale the lens by %1").arg(shortest(factor)),
                    [&](const Prescription& lens) { return scaled(lens, factor); });
 }
 
@@ -345,7 +371,7 @@ bool PrescriptionModel::set_number(const QModelIndex& index, std::size_t which, 
 }
 
 void PrescriptionModel::set_varied(const QModelIndexList& cells, bool varies) {
-    attempt(varies ? "mark as variable" : "mark as fixed", [&](Prescription lens) {
+    attempt(varies ? tr("mark as variable") : tr("mark as fixed"), [&](Prescription lens) {
         for (const QModelIndex& cell : cells) {
             Surface& surface = lens.surfaces.at(row_of(cell));
             const std::string kind = vary_kind(surface, cell.column());
@@ -358,8 +384,8 @@ void PrescriptionModel::set_varied(const QModelIndexList& cells, bool varies) {
 }
 
 void PrescriptionModel::set_own_thickness(int row, bool own) {
-    attempt(QString(own ? "give surface %1 a thickness of its own here"
-                        : "take the thickness of surface %1 as listed")
+    attempt((own ? tr("give surface %1 a thickness of its own here")
+                 : tr("take the thickness of surface %1 as listed"))
                 .arg(row + 1),
             [&](Prescription lens) {
                 return with_own_thickness(std::move(lens), configuration_,

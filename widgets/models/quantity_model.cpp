@@ -14,8 +14,9 @@ namespace ghostlight {
 
 namespace {
 
-constexpr std::array<const char*, QuantityModel::column_count> headers = {"Quantity", "Value",
-                                                                          "Unit"};
+constexpr std::array<const char*, QuantityModel::column_count> headers = {
+    QT_TRANSLATE_NOOP("QuantityModel", "Quantity"), QT_TRANSLATE_NOOP("QuantityModel", "Value"),
+    QT_TRANSLATE_NOOP("QuantityModel", "Unit")};
 
 /// Below this, against lengths of millimetres, a number is 0 but for rounding.
 constexpr double rounding = 1e-12;
@@ -57,7 +58,7 @@ QVariant QuantityModel::data(const QModelIndex& index, int role) const {
                    : index.column() == value ? text_of(quantity.value)
                                              : QString::fromStdString(quantity.unit);
         case Qt::ToolTipRole:
-            return QStringLiteral("%1\nIn files: %2")
+            return tr("%1\nIn files: %2")
                 .arg(QString::fromStdString(quantity.definition),
                      QString::fromStdString(quantity.name));
         case Qt::TextAlignmentRole:
@@ -76,7 +77,7 @@ QVariant QuantityModel::headerData(int section, Qt::Orientation orientation, int
     if (orientation != Qt::Horizontal || section < 0 || section >= column_count) {
         return {};
     }
-    return column_header(headers[static_cast<std::size_t>(section)], nullptr,
+    return column_header("QuantityModel", headers[static_cast<std::size_t>(section)], nullptr,
                          section == value ? Qt::AlignRight : Qt::AlignLeft, role);
 }
 

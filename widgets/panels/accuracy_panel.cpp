@@ -33,11 +33,16 @@ namespace ghostlight {
 
 namespace {
 
-constexpr const char* what_is_here =
-    "Error against time of every way to draw this lens's flare, measured against a reference, and "
-    "what the picture leaves out.";
-constexpr const char* before_measuring =
-    "Measures every method against a reference for the lens and light at hand.";
+QString what_is_here() {
+    return AccuracyPanel::tr(
+        "Error against time of every way to draw this lens's flare, measured against a reference, "
+        "and "
+        "what the picture leaves out.");
+}
+QString before_measuring() {
+    return AccuracyPanel::tr(
+        "Measures every method against a reference for the lens and light at hand.");
+}
 /// As `ghostlight-cli accuracy --quick` has them.
 constexpr int usual_width_px = 320, usual_repeats = 5;
 constexpr double usual_reference_percent = 2.0, usual_budget_s = 10.0;
@@ -67,7 +72,7 @@ void say_within(QTabWidget& tabs, QWidget* page, const QString& tip) {
 
 AccuracyPanel::AccuracyPanel(Document& document, const Actions& actions, MakeGlEngine make_gl,
                              QWidget* parent)
-    : PagedPanel(tr("Accuracy"), tr(what_is_here), actions, parent),
+    : PagedPanel(tr("Accuracy"), what_is_here(), actions, parent),
       document_(document),
       tabs_(new QTabWidget),
       error_chart_(new LogChartView),
@@ -76,8 +81,8 @@ AccuracyPanel::AccuracyPanel(Document& document, const Actions& actions, MakeGlE
       plan_(new PlanPage),
       job_(std::make_unique<AccuracyJob>(std::move(make_gl))) {
     setObjectName("accuracy_panel");
-    error_chart_->set_text(tr(before_measuring));
-    promise_chart_->set_text(tr(before_measuring));
+    error_chart_->set_text(before_measuring());
+    promise_chart_->set_text(before_measuring());
     table_->setObjectName("accuracy_table");
     table_->setHorizontalHeaderLabels({tr("Method"), tr("Setting"), tr("Median, ms"), tr("p95, ms"),
                                        tr("Error, %"), tr("Energy, %"), tr("SMAPE, %"),

@@ -1,5 +1,6 @@
 #include "widgets/panels/check_panel.h"
 
+#include <QCoreApplication>
 #include <QHeaderView>
 #include <QTableView>
 #include <QVBoxLayout>
@@ -22,7 +23,9 @@ namespace ghostlight {
 namespace {
 
 constexpr int delay_ms = 150;  // typing and dragging have come to rest
-constexpr std::array headers = {"Surface", "Cell", "Finding", "Proposal"};
+constexpr std::array headers = {
+    QT_TRANSLATE_NOOP("FindingsModel", "Surface"), QT_TRANSLATE_NOOP("FindingsModel", "Cell"),
+    QT_TRANSLATE_NOOP("FindingsModel", "Finding"), QT_TRANSLATE_NOOP("FindingsModel", "Proposal")};
 
 }  // namespace
 
@@ -43,8 +46,7 @@ QVariant FindingsModel::data(const QModelIndex& index, int role) const {
         case Qt::DisplayRole:
             switch (index.column()) {
                 case surface:
-                    return found.surface ? QString::number(*found.surface + 1)
-                                         : QStringLiteral("lens");
+                    return found.surface ? QString::number(*found.surface + 1) : tr("lens");
                 case cell:
                     return QString::fromUtf8(name_of(found.cell));
                 case text:
@@ -72,7 +74,8 @@ QVariant FindingsModel::headerData(int section, Qt::Orientation orientation, int
         return {};
     }
     if (role == Qt::DisplayRole) {
-        return QString::fromUtf8(headers[static_cast<std::size_t>(section)]);
+        return QCoreApplication::translate("FindingsModel",
+                                           headers[static_cast<std::size_t>(section)]);
     }
     return role == Qt::TextAlignmentRole ? QVariant::fromValue(Qt::AlignVCenter | Qt::AlignLeft)
                                          : QVariant();
@@ -92,9 +95,9 @@ CheckPanel::CheckPanel(Document& document, Selection& selection, QWidget* parent
       document_(document),
       selection_(selection),
       model_(new FindingsModel(this)),
-      header_(new PanelHeader("Check")),
+      header_(new PanelHeader(tr("Check"))),
       table_(plain_table(model_, new TableDelegate(-1, -1, this))),
-      fine_(new EmptyState("What is suspicious in the lens is listed here.", QString())) {
+      fine_(new EmptyState(tr("What is suspicious in the lens is listed here."), QString())) {
     table_->setObjectName("findings");
     table_->setSelectionMode(QAbstractItemView::SingleSelection);
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
@@ -167,15 +170,13 @@ void CheckPanel::take(std::vector<Finding> findings) {
     }
     table_->setVisible(count > 0);
     fine_->setVisible(count == 0);
-    fine_->set_what(document_.is_empty()
-                        ? QStringLiteral("What is suspicious in the lens is listed here.")
-                        : QStringLiteral("Nothing suspicious was found."));
-    header_->set_state(count == 0 ? QString()
-                       : grave == 0
-                           ? QStringLiteral("%1 worth knowing").arg(count)
-                           : QStringLiteral("%1 suspicious, %2 worth knowing · click to go there")
-                                 .arg(grave)
-                                 .arg(count - grave));
+    fine_->set_what(document_.is_empty() ? tr("What is suspicious in the lens is listed here.")
+                                         : tr("Nothing suspicious was found."));
+    header_->set_state(count == 0   ? QString()
+                       : grave == 0 ? tr("%1 worth knowing").arg(count)
+                                    : tr("%1 suspicious, %2 worth knowing · click to go there")
+                                          .arg(grave)
+                                          .arg(count - grave));
     header_->set_warning(std::ranges::any_of(std::views::iota(0, count), [this](int row) {
         return model_->finding(row).severity == Note::Severity::error;
     }));

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <QTimer>
-#include <QWidget>
 
 #include <memory>
 #include <vector>
@@ -9,11 +8,11 @@
 #include "core/ghosts/ghost_table.h"
 #include "core/ghosts/surface_ghosts.h"
 #include "core/optics/coating.h"
+#include "widgets/panels/paged_panel.h"
 
 class QComboBox;
 class QLabel;
 class QLineEdit;
-class QStackedWidget;
 class QStandardItem;
 class QStandardItemModel;
 class QTableView;
@@ -21,16 +20,13 @@ class QToolButton;
 
 namespace ghostlight {
 
-class Actions;
 class CurveChart;
 class Document;
-class EmptyState;
-class PanelHeader;
 class Selection;
 
 /// The coating of the surface in hand: its kind and layers, what it reflects against wavelength
 /// and angle, the angles at which ghosts meet it, and the two ghosts that it feeds most.
-class CoatingPanel : public QWidget {
+class CoatingPanel : public PagedPanel {
     Q_OBJECT
    public:
     CoatingPanel(Document& document, Selection& selection, const Actions& actions,
@@ -53,6 +49,9 @@ class CoatingPanel : public QWidget {
     void refused(const QString& reason);
 
    private:
+    /// Of the table of layers.
+    enum Column { number_column, material_column, index_column, thickness_column, k_column };
+
     void build();
     void follow();
     void show_coating();
@@ -74,9 +73,6 @@ class CoatingPanel : public QWidget {
     int row_ = -1;
     std::shared_ptr<const GhostTable> ghosts_;
     std::vector<SurfaceGhost> fed_;
-    PanelHeader* header_;
-    EmptyState* empty_;
-    QStackedWidget* pages_;
     QComboBox* kind_;
     QStandardItemModel* model_;
     QTableView* table_;

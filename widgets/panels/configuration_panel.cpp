@@ -35,7 +35,7 @@ enum Column { name_column, efl_column, f_number_column, gaps_column, column_coun
 constexpr int name_role = Qt::UserRole + 1;
 
 QString shown_name(const std::string& name) {
-    return name.empty() ? QStringLiteral("as listed") : QString::fromStdString(name);
+    return name.empty() ? ConfigurationPanel::tr("as listed") : QString::fromStdString(name);
 }
 
 QStandardItem* cell(const QString& text, Qt::Alignment alignment) {
@@ -76,22 +76,21 @@ QList<QStandardItem*> row_of(const Prescription& lens, const std::string& name) 
 ConfigurationPanel::ConfigurationPanel(Document& document, QWidget* parent)
     : QWidget(parent),
       document_(document),
-      header_(new PanelHeader("Configurations")),
+      header_(new PanelHeader(tr("Configurations"))),
       model_(new QStandardItemModel(0, column_count, this)),
       table_(plain_table(model_, new TableDelegate(-1, -1, this))),
-      add_(quiet_button("+ Add", "Another position like the one in hand", false)),
-      remove_(quiet_button("− Remove", "Take this position away", false)),
+      add_(quiet_button(tr("+ Add"), tr("Another position like the one in hand"), false)),
+      remove_(quiet_button(tr("− Remove"), tr("Take this position away"), false)),
       first_(new QComboBox),
       second_(new QComboBox),
       slider_(new QSlider(Qt::Horizontal)),
       share_(new QLabel) {
     setObjectName("configuration_panel");
-    model_->setHorizontalHeaderLabels({"Position", "EFL mm", "f/", "Own thicknesses"});
-    model_->horizontalHeaderItem(name_column)->setToolTip("Double-click or F2 renames");
+    model_->setHorizontalHeaderLabels({tr("Position"), tr("EFL mm"), "f/", tr("Own thicknesses")});
+    model_->horizontalHeaderItem(name_column)->setToolTip(tr("Double-click or F2 renames"));
     model_->horizontalHeaderItem(gaps_column)
-        ->setToolTip(
-            "Surfaces whose thickness is this position's own. Edit ▸ Own Thickness in\n"
-            "This Configuration adds one: choose the surface in the prescription.");
+        ->setToolTip(tr("Surfaces whose thickness is this position's own. Edit ▸ Own Thickness in\n"
+                        "This Configuration adds one: choose the surface in the prescription."));
     model_->horizontalHeaderItem(efl_column)->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
     model_->horizontalHeaderItem(f_number_column)
         ->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
@@ -102,16 +101,16 @@ ConfigurationPanel::ConfigurationPanel(Document& document, QWidget* parent)
     table_->horizontalHeader()->setStretchLastSection(true);
     table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     slider_->setRange(0, slider_end);
-    slider_->setAccessibleName("Between two positions");
+    slider_->setAccessibleName(tr("Between two positions"));
     slider_->setToolTip(
-        "From the one position to the other, linear in every thickness and the f-number.\n"
-        "What it makes is a position of its own; undo takes it away again.");
+        tr("From the one position to the other, linear in every thickness and the f-number.\n"
+           "What it makes is a position of its own; undo takes it away again."));
     share_->setMinimumWidth(44);
     share_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
     for (QComboBox* end : {first_, second_}) {
         end->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
         end->setMinimumContentsLength(8);
-        end->setAccessibleName(end == first_ ? "From" : "To");
+        end->setAccessibleName(end == first_ ? tr("From") : tr("To"));
     }
 
     auto* column = new QVBoxLayout(this);
@@ -135,11 +134,12 @@ ConfigurationPanel::ConfigurationPanel(Document& document, QWidget* parent)
     column->addLayout(between);
 
     connect(add_, &QToolButton::clicked, this,
-            [this] { attempt("add a configuration", with_configuration_added); });
+            [this] { attempt(tr("add a configuration"), with_configuration_added); });
     connect(remove_, &QToolButton::clicked, this, [this] {
-        attempt("remove the configuration " + shown_name(chosen()), [this](DocumentState state) {
-            return with_configuration_removed(std::move(state), chosen());
-        });
+        attempt(tr("remove the configuration %1").arg(shown_name(chosen())),
+                [this](DocumentState state) {
+                    return with_configuration_removed(std::move(state), chosen());
+                });
     });
     connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
             [this](const QModelIndex& now) {
@@ -149,7 +149,7 @@ ConfigurationPanel::ConfigurationPanel(Document& document, QWidget* parent)
                 Scene scene = document_.scene();
                 scene.configuration =
                     now.siblingAtColumn(name_column).data(name_role).toString().toStdString();
-                document_.edit_scene(scene, "change configuration", "configuration");
+                document_.edit_scene(scene, tr("change configuration"), "configuration");
             });
     connect(model_, &QStandardItemModel::itemChanged, this, [this](QStandardItem* item) {
         if (is_filling_ || item->column() != name_column) {
@@ -160,7 +160,7 @@ ConfigurationPanel::ConfigurationPanel(Document& document, QWidget* parent)
         if (to == from) {
             return;  // what was refused has given way
         }
-        attempt("rename the configuration " + shown_name(from), [&](DocumentState state) {
+        attempt(tr("rename the configuration %1").arg(shown_name(from)), [&](DocumentState state) {
             return with_configuration_renamed(std::move(state), from, to);
         });
         update_.start();  // a refused name gives way to the old one
@@ -262,10 +262,11 @@ void ConfigurationPanel::show_lens() {
     share_->setText(QStringLiteral("%1 %").arg(100.0 * slider_->value() / slider_end, 0, 'f', 1));
     add_->setEnabled(!empty);
     remove_->setEnabled(!chosen().empty());
-    header_->set_state(empty ? QString()
-                       : lens.configurations.empty()
-                           ? QStringLiteral("one position, as listed")
-                           : QStringLiteral("%1 positions").arg(lens.configurations.size()));
+    header_->set_state(
+        empty ? QString()
+        : lens.configurations.empty()
+            ? tr("one position, as listed")
+            : tr("%n position(s)", nullptr, static_cast<int>(lens.configurations.size())));
     is_filling_ = false;
 }
 

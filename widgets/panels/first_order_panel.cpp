@@ -27,8 +27,10 @@ namespace ghostlight {
 
 namespace {
 
-constexpr const char* what_is_here =
-    "The lens's first-order data: focal length, pupils, principal points, field and length.";
+QString what_is_here() {
+    return FirstOrderPanel::tr(
+        "The lens's first-order data: focal length, pupils, principal points, field and length.");
+}
 
 QTableView* make_table(QAbstractItemModel* model, QObject* parent) {
     QTableView* table =
@@ -47,9 +49,9 @@ FirstOrderPanel::FirstOrderPanel(Document& document, const Actions& actions, QWi
     : QWidget(parent),
       document_(document),
       model_(new QuantityModel(this)),
-      header_(new PanelHeader("First order")),
+      header_(new PanelHeader(tr("First order"))),
       table_(make_table(model_, this)),
-      empty_(new EmptyState(what_is_here, "Open a lens…")),
+      empty_(new EmptyState(what_is_here(), tr("Open a lens…"))),
       cannot_(new EmptyState(QString(), QString())),
       pages_(new QStackedWidget) {
     pages_->addWidget(empty_);
@@ -88,7 +90,7 @@ void FirstOrderPanel::request() {
     if (document_.is_empty()) {
         return;
     }
-    QString state = QStringLiteral("%1 nm · far object").arg(significant(d_line_nm, 4));
+    QString state = tr("%1 nm · far object").arg(significant(d_line_nm, 4));
     if (!document_.scene().configuration.empty()) {
         state.prepend(QString::fromStdString(document_.scene().configuration) + " · ");
     }
@@ -148,7 +150,7 @@ void FirstOrderPanel::show_reason(const QString& reason, std::uint64_t serial) {
     shown_serial_ = serial;
     reason_ = reason;
     model_->set_quantities({});
-    cannot_->set_what(QStringLiteral("Nothing can be worked out yet: %1").arg(reason));
+    cannot_->set_what(tr("Nothing can be worked out yet: %1").arg(reason));
     pages_->setCurrentWidget(cannot_);
 }
 

@@ -30,14 +30,16 @@ namespace ghostlight {
 
 namespace {
 
-constexpr const char* what_is_here =
-    "Finds the coatings and elements that explain photographs of the lens's flare, and says how "
-    "well each is known.";
+QString what_is_here() {
+    return FitPanel::tr(
+        "Finds the coatings and elements that explain photographs of the lens's flare, and says "
+        "how well each is known.");
+}
 
 }  // namespace
 
 FitPanel::FitPanel(Document& document, const Actions& actions, QWidget* parent)
-    : PagedPanel(tr("Fit"), tr(what_is_here), actions, parent),
+    : PagedPanel(tr("Fit"), what_is_here(), actions, parent),
       document_(document),
       photographs_(new FitPhotographs),
       variables_(new FitVariables),

@@ -1,14 +1,17 @@
 #include "widgets/panels/fit_photo_form.h"
 
+#include <QFileDialog>
 #include <QFileInfo>
 #include <QGridLayout>
 #include <QLabel>
 #include <QLineEdit>
+#include <QToolButton>
 
 #include <cmath>
 
 #include "core/error.h"
 #include "widgets/number_text.h"
+#include "widgets/panels/quiet_button.h"
 
 namespace ghostlight {
 
@@ -18,7 +21,7 @@ double number_of(const QString& what, const QString& text, const QString& expect
                  bool (*accepts)(double)) {
     const auto number = parse_number(text);
     if (!number || !accepts(*number)) {
-        throw Error({.problem = what.toStdString() + " cannot be taken",
+        throw Error({.problem = FitPhotoForm::tr("%1 cannot be taken").arg(what).toStdString(),
                      .file = {},
                      .where = {},
                      .found = "'" + text.toStdString() + "'",
@@ -139,6 +142,15 @@ FitPhotoForm::FitPhotoForm(QWidget* parent) : QWidget(parent) {
              },
          .text = [](const FitPhotoSetup& setup) { return QString::fromStdString(setup.mask_file); },
          .step = tr("change the photograph's mask")});
+    auto* choose = quiet_button(tr("Choose…"), tr("Choose the mask's file"), false);
+    grid->addWidget(choose, 3, 2, 1, 2, Qt::AlignLeft);
+    connect(choose, &QToolButton::clicked, this, [this] {
+        const QString file = QFileDialog::getOpenFileName(this, tr("Mask"));
+        if (!file.isEmpty()) {
+            field("mask").setText(file);
+            commit(fields_.back());
+        }
+    });
     field("mask").setPlaceholderText(tr("none"));
     field("crop").setPlaceholderText(tr("all"));
     field("axis").setPlaceholderText(tr("the middle"));

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/io/photo_file.h"
 #include "widgets/fit_pictures.h"
 #include "widgets/number_text.h"
 #include "widgets/panels/fit_photo_form.h"
@@ -22,9 +23,13 @@ namespace ghostlight {
 
 namespace {
 
-constexpr const char* photo_filter =
-    "Photographs (*.exr *.tif *.tiff *.png *.jpg *.jpeg *.cr2 *.cr3 *.nef *.arw *.raf *.rw2 *.orf "
-    "*.dng *.pef);;All files (*)";
+QString photo_filter() {
+    QStringList patterns{"*.exr", "*.tif", "*.tiff", "*.png", "*.jpg", "*.jpeg"};
+    for (const std::string_view each : raw_photo_extensions()) {
+        patterns << '*' + QString::fromUtf8(each.data(), static_cast<qsizetype>(each.size()));
+    }
+    return FitPhotographs::tr("Photographs (%1);;All files (*)").arg(patterns.join(' '));
+}
 
 QToolButton* named(const char* name, const QString& text, const QString& tip,
                    bool checkable = false) {
@@ -36,7 +41,8 @@ QToolButton* named(const char* name, const QString& text, const QString& tip,
 /// Buttons of which one is down.
 template <class Choice>
 struct Chosen {
-    const char *name, *text, *tip;
+    const char* name;
+    QString text, tip;
     Choice choice;
 };
 
@@ -103,8 +109,8 @@ QHBoxLayout* FitPhotographs::make_files() {
     row->addWidget(add);
     row->addWidget(remove_);
     connect(add, &QToolButton::clicked, this, [this] {
-        add_files(QFileDialog::getOpenFileNames(this, tr("Photographs"), QString(),
-                                                QString::fromUtf8(photo_filter)));
+        add_files(
+            QFileDialog::getOpenFileNames(this, tr("Photographs"), QString(), photo_filter()));
     });
     connect(remove_, &QToolButton::clicked, this, [this] {
         FitSetup setup = setup_;
@@ -121,18 +127,19 @@ QHBoxLayout* FitPhotographs::make_files() {
 QHBoxLayout* FitPhotographs::make_modes() {
     using Mode = FitPictureView::Mode;
     const Chosen<Mode> all[] = {
-        {"mode_photograph", "Photograph", "The file", Mode::photograph},
-        {"mode_model", "Model", "What the lens makes, as far as the fit has come", Mode::model},
-        {"mode_overlay", "Overlay", "Half the photograph, half the model", Mode::overlay},
-        {"mode_difference", "Difference",
-         "Residuals: red where the model is too bright, blue where it is too dark; full at 5 σ",
+        {"mode_photograph", tr("Photograph"), tr("The file"), Mode::photograph},
+        {"mode_model", tr("Model"), tr("What the lens makes, as far as the fit has come"),
+         Mode::model},
+        {"mode_overlay", tr("Overlay"), tr("Half the photograph, half the model"), Mode::overlay},
+        {"mode_difference", tr("Difference"),
+         tr("Residuals: red where the model is too bright, blue where it is too dark; full at 5 σ"),
          Mode::difference},
-        {"mode_blink", "Blink", "Photograph and model in turn", Mode::blink}};
+        {"mode_blink", tr("Blink"), tr("Photograph and model in turn"), Mode::blink}};
     auto* row = new QHBoxLayout;
     row->setSpacing(2);
     auto* group = new QButtonGroup(this);
     for (const auto& each : all) {
-        auto* button = named(each.name, tr(each.text), tr(each.tip), true);
+        auto* button = named(each.name, each.text, each.tip, true);
         button->setChecked(each.choice == Mode::photograph);
         group->addButton(button);
         row->addWidget(button);
@@ -149,12 +156,12 @@ QHBoxLayout* FitPhotographs::make_modes() {
 QHBoxLayout* FitPhotographs::make_tools() {
     using Tool = FitPictureView::Tool;
     const Chosen<Tool> all[] = {
-        {"tool_light", "Light", "Click where the light is", Tool::light},
-        {"tool_box", "Box", "Drag boxes over what is not to count", Tool::box},
-        {"tool_lasso", "Lasso", "Draw around what is not to count", Tool::lasso},
-        {"tool_brush", "Brush", "Paint over what is not to count", Tool::brush},
-        {"tool_erase", "Erase", "Click a painted region to take it away", Tool::erase},
-        {"tool_crop", "Crop", "Drag over what is to count; a click: all", Tool::crop}};
+        {"tool_light", tr("Light"), tr("Click where the light is"), Tool::light},
+        {"tool_box", tr("Box"), tr("Drag boxes over what is not to count"), Tool::box},
+        {"tool_lasso", tr("Lasso"), tr("Draw around what is not to count"), Tool::lasso},
+        {"tool_brush", tr("Brush"), tr("Paint over what is not to count"), Tool::brush},
+        {"tool_erase", tr("Erase"), tr("Click a painted region to take it away"), Tool::erase},
+        {"tool_crop", tr("Crop"), tr("Drag over what is to count; a click: all"), Tool::crop}};
     tools_ = new QWidget;
     auto* row = new QHBoxLayout(tools_);
     row->setContentsMargins(0, 0, 0, 0);
@@ -167,7 +174,7 @@ QHBoxLayout* FitPhotographs::make_tools() {
     brush_->hide();
     auto* group = new QButtonGroup(this);
     for (const auto& each : all) {
-        auto* button = named(each.name, tr(each.text), tr(each.tip), true);
+        auto* button = named(each.name, each.text, each.tip, true);
         button->setChecked(each.choice == Tool::light);
         group->addButton(button);
         row->addWidget(button);

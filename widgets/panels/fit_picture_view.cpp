@@ -69,22 +69,22 @@ QPainterPath path_of(const MaskRegion& region) {
     return path;
 }
 
-const char* tip_of(FitPictureView::Tool tool) {
+QString tip_of(FitPictureView::Tool tool) {
     switch (tool) {
         case FitPictureView::Tool::light:
-            return "Click where the light is";
+            return FitPictureView::tr("Click where the light is");
         case FitPictureView::Tool::box:
-            return "Drag over what is not to count";
+            return FitPictureView::tr("Drag over what is not to count");
         case FitPictureView::Tool::lasso:
-            return "Draw around what is not to count";
+            return FitPictureView::tr("Draw around what is not to count");
         case FitPictureView::Tool::brush:
-            return "Paint over what is not to count";
+            return FitPictureView::tr("Paint over what is not to count");
         case FitPictureView::Tool::erase:
-            return "Click a painted region to take it away";
+            return FitPictureView::tr("Click a painted region to take it away");
         case FitPictureView::Tool::crop:
-            return "Drag over what is to count; a click: all";
+            return FitPictureView::tr("Drag over what is to count; a click: all");
     }
-    return "";
+    return {};
 }
 
 }  // namespace
@@ -123,7 +123,7 @@ void FitPictureView::set_mode(Mode mode) {
 void FitPictureView::set_tool(Tool tool) {
     tool_ = tool;
     forget_drawing();
-    setToolTip(tr(tip_of(tool)));
+    setToolTip(tip_of(tool));
     setCursor(tool == Tool::erase ? Qt::ArrowCursor : Qt::CrossCursor);
 }
 
@@ -216,7 +216,7 @@ std::optional<std::size_t> FitPictureView::region_at(const QPointF& screen) cons
 }
 
 void FitPictureView::paint_regions(QPainter& painter) const {
-    const Palette& colors = current_palette();
+    const Palette colors = dark_palette();  // pictures are dark in either theme
     const QTransform map = file_to_screen();
     painter.setRenderHint(QPainter::Antialiasing);
     QColor fill = colors.amber;
@@ -252,7 +252,7 @@ void FitPictureView::paint_light(QPainter& painter) const {
     const QSize file = photograph_.size_px;
     const QPointF center = on_screen({light_->x() * file.width(), light_->y() * file.height()});
     painter.setRenderHint(QPainter::Antialiasing);
-    painter.setPen(QPen(current_palette().teal, 1.5));
+    painter.setPen(QPen(dark_palette().teal, 1.5));
     painter.drawEllipse(center, light_radius_px, light_radius_px);
     painter.drawLine(center - QPointF(light_radius_px + 5, 0), center - QPointF(4, 0));
     painter.drawLine(center + QPointF(4, 0), center + QPointF(light_radius_px + 5, 0));

@@ -10,6 +10,7 @@
 #include "widgets/number_text.h"
 #include "widgets/palette.h"
 #include "widgets/panels/correlation_view.h"
+#include "widgets/panels/fit_profile_page.h"
 #include "widgets/panels/line_plot.h"
 
 namespace ghostlight {
@@ -64,13 +65,23 @@ QString html_of(const FitReport& report) {
     for (const std::string& remark : report.remarks) {
         html += QStringLiteral("<p>%1</p>").arg(escaped(remark));
     }
-    say("Determined:", list_of(report, FitKnowledge::determined));
-    say("Weakly known:", list_of(report, FitKnowledge::weak));
-    say("Known by their priors alone:", list_of(report, FitKnowledge::prior));
-    say("Held, as no visible ghost feels them:", list_of(report, FitKnowledge::not_felt));
-    say("At a bound:", list_of(report, FitKnowledge::at_bound));
+    say(FitResults::tr("Determined:"), list_of(report, FitKnowledge::determined));
+    say(FitResults::tr("Weakly known:"), list_of(report, FitKnowledge::weak));
+    say(FitResults::tr("Known by their priors alone:"), list_of(report, FitKnowledge::prior));
+    say(FitResults::tr("Held, as no visible ghost feels them:"),
+        list_of(report, FitKnowledge::not_felt));
+    say(FitResults::tr("At a bound:"), list_of(report, FitKnowledge::at_bound));
+    for (const SurfaceKinds& surface : report.kinds) {
+        QStringList tried;
+        for (const KindTried& each : surface.tried) {
+            tried << FitResults::tr("%1 (%2 %)")
+                         .arg(escaped(each.name), significant(100.0 * each.share, 2));
+        }
+        say(FitResults::tr("Kinds of coating on surface %1, by their odds:").arg(surface.row + 1),
+            tried.join(QStringLiteral(", ")));
+    }
     if (!report.unknown.empty()) {
-        html += QStringLiteral(
+        html += FitResults::tr(
                     "<p><span style=\"color:%1\">Combinations that the photographs do "
                     "not determine, and their width over the prior's:</span></p><ul>")
                     .arg(colors.dim.name());
@@ -83,7 +94,7 @@ QString html_of(const FitReport& report) {
         html += "</ul>";
     }
     say("χ²",
-        QStringLiteral("%1 for %2 residuals; %3 % of the photograph explained (%4 % at the "
+        FitResults::tr("%1 for %2 residuals; %3 % of the photograph explained (%4 % at the "
                        "start), %5 % outliers, errors widened × %6")
             .arg(significant(report.chi2), grouped(report.residuals),
                  significant(100.0 * report.explained_after, 3),
@@ -91,15 +102,15 @@ QString html_of(const FitReport& report) {
                  significant(100.0 * report.outliers, 2), significant(report.error_scale, 3)));
     if (!report.suggestions.empty()) {
         const Suggestion& best = report.suggestions.front();
-        say("The photograph that would help most:",
-            QStringLiteral("light at %1°: %2 from ± %3 to ± %4 %5")
+        say(FitResults::tr("The photograph that would help most:"),
+            FitResults::tr("light at %1°: %2 from ± %3 to ± %4 %5")
                 .arg(significant(best.light.field_deg, 3), named(report, best.number),
                      significant(best.error_now, 2), significant(best.error_then, 2),
                      escaped(unit(report.numbers[best.number].parameter))));
     }
-    say("Time", QStringLiteral("%1 s, %2 iterations")
-                    .arg(significant(report.seconds, 3))
-                    .arg(report.iterations));
+    say(FitResults::tr("Time"), FitResults::tr("%1 s, %2 iterations")
+                                    .arg(significant(report.seconds, 3))
+                                    .arg(report.iterations));
     return html;
 }
 
@@ -111,7 +122,8 @@ FitResults::FitResults(QWidget* parent)
       words_(new QTextBrowser),
       correlations_(new CorrelationView),
       surfaces_(new QComboBox),
-      band_(new LinePlot) {
+      band_(new LinePlot),
+      profiles_(new FitProfilePage) {
     setObjectName("fit_results");
     setDocumentMode(true);
     costs_->set_axes(tr("iteration"), tr("cost"), true);
@@ -129,6 +141,8 @@ FitResults::FitResults(QWidget* parent)
     addTab(words_, tr("Verdict"));
     addTab(reflectances, tr("Reflectances"));
     addTab(correlations_, tr("Correlations"));
+    addTab(profiles_, tr("Profiles"));
+    setTabToolTip(indexOf(profiles_), tr("Intervals by profile likelihood and bootstrap"));
     connect(surfaces_, &QComboBox::currentIndexChanged, this, &FitResults::show_band);
     clear();
 }
@@ -137,6 +151,7 @@ void FitResults::clear() {
     costs_->set_curves({});
     words_->clear();
     correlations_->set_correlations({}, {});
+    profiles_->clear();
     bands_.clear();
     surfaces_->clear();
     surfaces_->hide();
@@ -166,6 +181,7 @@ void FitResults::show_report(const FitReport& report) {
         }
     }
     correlations_->set_correlations(std::move(names), report.correlation);
+    profiles_->show_report(report);
     bands_ = report.bands;
     surfaces_->clear();
     for (const ReflectanceBand& band : bands_) {

@@ -13,6 +13,7 @@ class QTextBrowser;
 namespace ghostlight {
 
 class CorrelationView;
+class FitProfilePage;
 class LinePlot;
 
 /// What a fit says: its cost as it goes on, the verdict in words with what is not determined,
@@ -30,6 +31,7 @@ class FitResults : public QTabWidget {
     LinePlot& costs() { return *costs_; }
     CorrelationView& correlations() { return *correlations_; }
     LinePlot& reflectances() { return *band_; }
+    FitProfilePage& profiles() { return *profiles_; }
 
    private:
     void show_band(int index);
@@ -38,6 +40,7 @@ class FitResults : public QTabWidget {
     CorrelationView* correlations_;
     QComboBox* surfaces_;
     LinePlot* band_;
+    FitProfilePage* profiles_;
     std::vector<ReflectanceBand> bands_;
 };
 

@@ -4,6 +4,7 @@
 #include <QComboBox>
 #include <QLabel>
 #include <QLineEdit>
+#include <QSpinBox>
 #include <QTabWidget>
 #include <QTableView>
 #include <QToolButton>
@@ -26,14 +27,23 @@ namespace {
 
 constexpr int suggested_angles = 4;
 
-std::string joined(const std::vector<FitParameterModel::Row>& rows, bool varies) {
+template <class Takes>
+std::string joined(const std::vector<FitParameterModel::Row>& rows, const Takes& takes) {
     std::string text;
     for (const FitParameterModel::Row& row : rows) {
-        if (row.varies == varies) {
+        if (takes(row)) {
             text += (text.empty() ? "" : ",") + vary_item(row.parameter);
         }
     }
     return text;
+}
+
+bool is_varied(const FitParameterModel::Row& row) { return row.varies; }
+bool is_held(const FitParameterModel::Row& row) { return !row.varies; }
+bool is_profiled(const FitParameterModel::Row& row) { return row.varies && row.is_profiled; }
+
+bool is_same(const FitParameter& a, const FitParameter& b) {
+    return a.kind == b.kind && a.layer == b.layer && a.rows == b.rows;
 }
 
 std::vector<FitParameterModel::Row> rows_of(const FitSetup& setup, const Prescription& lens) {
@@ -44,7 +54,14 @@ std::vector<FitParameterModel::Row> rows_of(const FitSetup& setup, const Prescri
             continue;  // which parse_vary() refuses
         }
         for (const FitParameter& each : parse_vary(text, lens)) {
-            rows.push_back({each, varies});
+            rows.push_back({each, varies, false});
+        }
+    }
+    if (!setup.profiled.empty()) {
+        for (const FitParameter& each : parse_vary(setup.profiled, lens)) {
+            for (FitParameterModel::Row& row : rows) {
+                row.is_profiled = row.is_profiled || (row.varies && is_same(row.parameter, each));
+            }
         }
     }
     std::ranges::stable_sort(rows, [](const auto& a, const auto& b) {
@@ -116,6 +133,12 @@ QHBoxLayout* FitVariables::make_add() {
     row->addWidget(spec_, 1);
     row->addWidget(add);
     row->addWidget(remove);
+    auto* profile = named("profile", tr("Profile"),
+                          tr("How χ² rises as the chosen numbers move, all others fitted to each: "
+                             "intervals that need not be symmetric; takes longer. Again: not any "
+                             "more"));
+    row->addWidget(profile);
+    connect(profile, &QToolButton::clicked, this, &FitVariables::profile_chosen);
     const auto add_typed = [this] {
         if (!spec_->text().trimmed().isEmpty()) {
             add_spec(spec_->text().trimmed().replace(' ', ','), tr("vary %1").arg(spec_->text()));
@@ -134,8 +157,9 @@ QHBoxLayout* FitVariables::make_add() {
         }
         set_rows(rows, tr("vary less"));
     });
-    const auto show_choice = [this, remove] {
+    const auto show_choice = [this, remove, profile] {
         remove->setEnabled(table_->selectionModel()->hasSelection());
+        profile->setEnabled(table_->selectionModel()->hasSelection());
     };
     connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, show_choice);
     connect(model_, &QAbstractItemModel::modelReset, this, show_choice);
@@ -182,9 +206,23 @@ QHBoxLayout* FitVariables::make_more() {
     row->addWidget(loss_scale_);
     row->addWidget(new QLabel(QStringLiteral("σ")));
     row->addSpacing(8);
+    bootstrap_ = new QSpinBox;
+    bootstrap_->setObjectName("fit_bootstrap");
+    bootstrap_->setRange(0, 1000);
+    bootstrap_->setSpecialValueText(tr("none"));
+    bootstrap_->setKeyboardTracking(false);
+    bootstrap_->setToolTip(
+        tr("Fits to so many photographs drawn from the fitted model and its errors; takes longer"));
+    row->addWidget(new QLabel(tr("Bootstrap")));
+    row->addWidget(bootstrap_);
+    row->addSpacing(8);
     row->addWidget(merge_);
     row->addWidget(suggest_);
     row->addStretch(1);
+    connect(bootstrap_, &QSpinBox::valueChanged, this, [this](int draws) {
+        change(tr("change the fit's bootstrap"),
+               [draws](FitSetup& setup) { setup.bootstrap = draws; });
+    });
     connect(spectrum_, &QLineEdit::editingFinished, this, [this] {
         change(tr("change the fit's spectrum"), [this](FitSetup& setup) {
             setup.spectrum = spectrum_->text().trimmed().toStdString();
@@ -200,11 +238,11 @@ QHBoxLayout* FitVariables::make_more() {
         change(tr("change the loss's scale"), [this](FitSetup& setup) {
             const auto number = parse_number(loss_scale_->text());
             if (!number || !(*number > 0.0)) {
-                throw Error({.problem = "the loss's scale cannot be taken",
+                throw Error({.problem = tr("the loss's scale cannot be taken").toStdString(),
                              .file = {},
                              .where = {},
                              .found = "'" + loss_scale_->text().toStdString() + "'",
-                             .expected = "standard deviations above 0"});
+                             .expected = tr("standard deviations above 0").toStdString()});
             }
             setup.loss_scale = *number;
         });
@@ -262,10 +300,24 @@ void FitVariables::add_marked() {
     add_spec(QString::fromStdString(wanted), tr("vary what is marked"));
 }
 
+void FitVariables::profile_chosen() {
+    std::vector<FitParameterModel::Row> rows = model_->rows();
+    std::vector<FitParameterModel::Row*> chosen;
+    for (const QModelIndex& each : table_->selectionModel()->selectedRows()) {
+        chosen.push_back(&rows[static_cast<std::size_t>(each.row())]);
+    }
+    const bool all = std::ranges::all_of(chosen, [](const auto* row) { return is_profiled(*row); });
+    for (FitParameterModel::Row* row : chosen) {
+        row->is_profiled = !all;
+    }
+    set_rows(rows, all ? tr("want no profile") : tr("want a profile"));
+}
+
 void FitVariables::set_rows(const std::vector<FitParameterModel::Row>& rows, const QString& step) {
     FitSetup setup = setup_;
-    setup.vary = joined(rows, true);
-    setup.held = joined(rows, false);
+    setup.vary = joined(rows, is_varied);
+    setup.held = joined(rows, is_held);
+    setup.profiled = joined(rows, is_profiled);
     Q_EMIT edited(setup, step);
 }
 
@@ -276,16 +328,15 @@ void FitVariables::add_spec(const QString& text, const QString& step) {
         for (const FitParameter& each : added) {
             // What is there already is marked and keeps its bounds, unless it is asked for alone.
             const auto at = std::ranges::find_if(rows, [&](const FitParameterModel::Row& row) {
-                return row.parameter.kind == each.kind && row.parameter.layer == each.layer &&
-                       row.parameter.rows == each.rows;
+                return is_same(row.parameter, each);
             });
             if (at == rows.end()) {
-                rows.push_back({each, true});
+                rows.push_back({each, true, false});
             } else {
-                *at = {added.size() == 1 ? each : at->parameter, true};
+                *at = {added.size() == 1 ? each : at->parameter, true, at->is_profiled};
             }
         }
-        parse_vary(joined(rows, true), lens_);  // nothing twice
+        parse_vary(joined(rows, is_varied), lens_);  // nothing twice
         set_rows(rows, step);
         spec_->clear();
     } catch (const Error& error) {
@@ -310,6 +361,8 @@ void FitVariables::set_setup(const FitSetup& setup, const Prescription& lens) {
     merge_->setChecked(setup.merge);
     merge_->setEnabled(setup.photos.size() > 1);
     suggest_->setChecked(setup.suggestions > 0);
+    const QSignalBlocker quiet(bootstrap_);
+    bootstrap_->setValue(setup.bootstrap);
     model_->set_rows({});  // of another lens, should what follows be refused
     ghosts_->set_setup(setup, lens);
     model_->set_rows(rows_of(setup, lens));
@@ -322,6 +375,7 @@ void FitVariables::set_numbers(const std::vector<FittedNumber>& numbers, bool ha
 
 void FitVariables::set_report(const FitReport* report) {
     ghosts_->set_report(report);
+    model_->set_profiles(report != nullptr ? report->profiles : std::vector<FittedProfile>());
     model_->set_numbers(report != nullptr ? report->numbers : std::vector<FittedNumber>(),
                         report != nullptr);
     show_columns();

@@ -11,6 +11,7 @@ class QCheckBox;
 class QComboBox;
 class QHBoxLayout;
 class QLineEdit;
+class QSpinBox;
 class QTableView;
 class QTabWidget;
 class QToolButton;
@@ -37,6 +38,7 @@ class FitVariables : public QWidget {
     QTabWidget& pages() { return *pages_; }
     QComboBox& loss() { return *loss_; }
     QLineEdit& loss_scale() { return *loss_scale_; }
+    QSpinBox& bootstrap() { return *bootstrap_; }
 
    Q_SIGNALS:
     void edited(const ghostlight::FitSetup& setup, const QString& step);
@@ -52,6 +54,7 @@ class FitVariables : public QWidget {
     /// A change of the set-up by what is typed; refused where it cannot be taken.
     template <class Change>
     void change(const QString& step, const Change& change);
+    void profile_chosen();
     void show_columns();
 
     FitSetup setup_;
@@ -62,6 +65,7 @@ class FitVariables : public QWidget {
     QLineEdit *spec_ = nullptr, *spectrum_ = nullptr, *loss_scale_ = nullptr;
     QComboBox* loss_ = nullptr;
     QCheckBox *merge_ = nullptr, *suggest_ = nullptr;
+    QSpinBox* bootstrap_ = nullptr;
     FitGhostPage* ghosts_;
 };
 

@@ -60,6 +60,10 @@ void FlarePanel::set_light(const LightDirection& light, double efl_mm) {
     view_->set_light(light, efl_mm);
 }
 
+void FlarePanel::set_other_lights(std::vector<LightDirection> lights) {
+    view_->set_other_lights(std::move(lights));
+}
+
 void FlarePanel::set_exposure_ev(double exposure_ev) {
     if (exposure_ev == view_->exposure_ev()) {
         return;

@@ -27,6 +27,8 @@ class FlarePanel : public QWidget {
     void begin_lens();
     /// Where the light is, and the focal length by which a drag is turned into an angle.
     void set_light(const LightDirection& light, double efl_mm);
+    /// The scene's other lights, marked too.
+    void set_other_lights(std::vector<LightDirection> lights);
     /// The lens cannot be traced: the last picture is dimmed, or the empty view says so.
     void set_failed();
 

@@ -13,6 +13,7 @@
 #include "widgets/number_text.h"
 #include "widgets/palette.h"
 #include "widgets/tabular_text.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -42,7 +43,7 @@ GhostMatrix::GhostMatrix(QWidget* parent) : QWidget(parent) {
     setObjectName("ghost_matrix");
     setMouseTracking(true);
     setFocusPolicy(Qt::StrongFocus);
-    setAccessibleName("Ghosts by their two surfaces");
+    setAccessibleName(tr("Ghosts by their two surfaces"));
 }
 
 void GhostMatrix::show_table(std::shared_ptr<const GhostTable> table) {
@@ -140,9 +141,7 @@ void GhostMatrix::paintEvent(QPaintEvent*) {
     if (rows_.empty()) {
         return;
     }
-    QFont small = painter.font();
-    small.setPixelSize(11);
-    painter.setFont(small);
+    painter.setFont(small_font());
     const Grid place = grid();
     const double gap = place.cell > 8.0 ? 1.0 : 0.0;
     painter.setOpacity(stale_ ? 0.55 : 1.0);

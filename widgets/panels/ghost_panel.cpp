@@ -14,6 +14,7 @@
 #include <QStyle>
 #include <QTableView>
 #include <QToolButton>
+#include <QTreeView>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -33,6 +34,7 @@
 #include "widgets/panels/table_delegate.h"
 #include "widgets/selection.h"
 #include "widgets/settings.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -81,8 +83,12 @@ struct Threshold {
 constexpr std::array<Threshold, 3> thresholds = {
     {{"ghosts.all", 0.0}, {"ghosts.above_3", 1e-3}, {"ghosts.above_2", 1e-2}}};
 
-constexpr const char* what_is_here =
-    "The lens's ghosts, the strongest first: flux, peak, place and size on the sensor.";
+constexpr const char* look_of_button = "look";
+
+QString what_is_here() {
+    return GhostPanel::tr(
+        "The lens's ghosts, the strongest first: flux, peak, place and size on the sensor.");
+}
 
 QTableView* make_table(QAbstractItemModel* model, QObject* parent) {
     QTableView* table = plain_table(
@@ -96,14 +102,14 @@ QTableView* make_table(QAbstractItemModel* model, QObject* parent) {
     return table;
 }
 
-QTableView* make_sums(QAbstractItemModel* model, QObject* parent) {
-    QTableView* table = plain_table(
+QTreeView* make_sums(QAbstractItemModel* model, QObject* parent) {
+    QTreeView* tree = plain_tree(
         model, new TableDelegate(SurfaceSumsModel::bar_role, SurfaceSumsModel::stale_role, parent));
-    table->setObjectName("surface_sums");
-    table->setSelectionMode(QAbstractItemView::SingleSelection);
-    table->setSelectionBehavior(QAbstractItemView::SelectRows);
-    table->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    return table;
+    tree->setObjectName("surface_sums");
+    tree->setSelectionMode(QAbstractItemView::ExtendedSelection);
+    tree->setSelectionBehavior(QAbstractItemView::SelectRows);
+    tree->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    return tree;
 }
 
 }  // namespace
@@ -114,14 +120,15 @@ GhostPanel::GhostPanel(Selection& selection, const Actions& actions, QWidget* pa
       actions_(actions),
       model_(new GhostTableModel(this)),
       filter_(new GhostFilter(*model_, this)),
-      header_(new PanelHeader("Ghosts")),
+      header_(new PanelHeader(tr("Ghosts"))),
       table_(make_table(filter_, this)),
       matrix_(new GhostMatrix),
       sums_(new SurfaceSumsModel(this)),
       surfaces_(make_sums(sums_, this)),
-      empty_(new EmptyState(what_is_here, "Open a lens…")),
-      working_(new EmptyState("Tracing the lens's ghosts…", QString())),
-      cannot_(new EmptyState("No ghosts yet: the lens cannot be traced as it stands.", QString())),
+      empty_(new EmptyState(what_is_here(), tr("Open a lens…"))),
+      working_(new EmptyState(tr("Tracing the lens's ghosts…"), QString())),
+      cannot_(
+          new EmptyState(tr("No ghosts yet: the lens cannot be traced as it stands."), QString())),
       pages_(new QStackedWidget) {
     pages_->addWidget(empty_);
     pages_->addWidget(table_);
@@ -151,21 +158,15 @@ GhostPanel::GhostPanel(Selection& selection, const Actions& actions, QWidget* pa
         menu.exec(table_->viewport()->mapToGlobal(at));
     });
     connect(matrix_, &GhostMatrix::selected, &selection_, &Selection::set_ghosts);
-    connect(surfaces_, &QTableView::doubleClicked, this, [this](const QModelIndex& index) {
-        const std::size_t row = sums_->sum(index.row()).surface;
+    connect(surfaces_, &QTreeView::doubleClicked, this, [this](const QModelIndex& index) {
+        const QModelIndex group = index.parent().isValid() ? index.parent() : index;
+        const std::size_t row = sums_->sum(group.row()).surface;
         if (row < sums_->surface_count()) {
             Q_EMIT surface_chosen(static_cast<int>(row));
         }
     });
-    connect(surfaces_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
-            [this](const QModelIndex& index) {
-                if (index.isValid()) {
-                    const std::size_t row = sums_->sum(index.row()).surface;
-                    words_->setText(row == sums_->surface_count()
-                                        ? QStringLiteral("touches sensor")
-                                        : QStringLiteral("touches %1").arg(row + 1));
-                }
-            });
+    connect(surfaces_->selectionModel(), &QItemSelectionModel::selectionChanged, this,
+            &GhostPanel::select_from_groups);
     table_->horizontalHeader()->setContextMenuPolicy(Qt::CustomContextMenu);
     connect(table_->horizontalHeader(), &QWidget::customContextMenuRequested, this,
             &GhostPanel::choose_columns);
@@ -180,7 +181,7 @@ GhostPanel::~GhostPanel() = default;
 void GhostPanel::build_strip() {
     strip_ = new QFrame;
     strip_->setObjectName("layers_strip");  // looks like the flare's
-    strip_->setFixedHeight(40);
+    set_line_height(*strip_, 40);
     strip_->setMinimumWidth(1);
     strip_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     auto* row = new QHBoxLayout(strip_);
@@ -188,14 +189,15 @@ void GhostPanel::build_strip() {
     row->setSpacing(2);
     const struct {
         const char* id;
-        const char* text;
+        QString text;
         Look look;
-    } looks[] = {{"ghosts.as_table", "Table", Look::table},
-                 {"ghosts.as_matrix", "Matrix", Look::matrix},
-                 {"ghosts.as_surfaces", "Surfaces", Look::surfaces}};
+    } looks[] = {{"ghosts.as_table", tr("Table"), Look::table},
+                 {"ghosts.as_matrix", tr("Matrix"), Look::matrix},
+                 {"ghosts.as_surfaces", tr("Surfaces"), Look::surfaces}};
     for (const auto& each : looks) {
         QAction& action = actions_[each.id];
         QToolButton* button = quiet_button(each.text, action.statusTip(), true);
+        button->setProperty(look_of_button, static_cast<int>(each.look));
         row->addWidget(button);
         connect(button, &QToolButton::clicked, this, [this, look = each.look] { set_look(look); });
         connect(&action, &QAction::triggered, this, [this, look = each.look] { set_look(look); });
@@ -204,15 +206,15 @@ void GhostPanel::build_strip() {
     words_ = new QLineEdit;
     words_->setObjectName("ghost_filter");
     words_->setFrame(false);
-    words_->setPlaceholderText("Filter, e.g. touches 7");
+    words_->setPlaceholderText(tr("Filter, e.g. touches 7"));
     words_->setClearButtonEnabled(true);
-    words_->setToolTip(
+    words_->setToolTip(tr(
         "Which ghosts are listed, in words:\n"
         "touches surface 7\nfocus within 5 mm of the sensor\nabove 1e-6   (flux, mm²)\n"
         "below 1 % of the strongest\non sensor above 50 %\nRMS below 2 mm\n5-3\n"
         "joined by 'and' or a comma, 'or', and 'not'. Also: relative, peak, x, y, R1, R2, angle 1, "
-        "angle 2, width, height, area");
-    words_->setAccessibleName("Filter of ghosts");
+        "angle 2, width, height, area"));
+    words_->setAccessibleName(tr("Filter of ghosts"));
     words_frame_ = new QFrame;
     words_frame_->setProperty("field", true);
     auto* inside = new QHBoxLayout(words_frame_);
@@ -220,7 +222,7 @@ void GhostPanel::build_strip() {
     inside->addWidget(words_);
     row->addSpacing(6);
     row->addWidget(words_frame_, 1);
-    QToolButton* columns = quiet_button("Columns", "Choose the table's columns", false);
+    QToolButton* columns = quiet_button(tr("Columns"), tr("Choose the table's columns"), false);
     row->addWidget(columns);
     connect(columns, &QToolButton::clicked, this, &GhostPanel::choose_columns);
     problem_ = new QLabel;
@@ -241,9 +243,7 @@ void GhostPanel::set_look(Look look) {
     }
     for (QToolButton* button : strip_->findChildren<QToolButton*>()) {
         if (button->isCheckable()) {
-            button->setChecked(button->text() == (look == Look::table    ? "Table"
-                                                  : look == Look::matrix ? "Matrix"
-                                                                         : "Surfaces"));
+            button->setChecked(button->property(look_of_button).toInt() == static_cast<int>(look));
         }
     }
     show_state();
@@ -261,7 +261,7 @@ void GhostPanel::read_filter() {
         filter_->set_query(parse_ghost_query(words_->text().toStdString(),
                                              table ? table->surface_count : any_surface_count));
     } catch (const Error& error) {
-        problem = QStringLiteral("%1: expected %2")
+        problem = tr("%1: expected %2")
                       .arg(QString::fromStdString(error.parts().found),
                            QString::fromStdString(error.parts().expected));
     }
@@ -299,7 +299,7 @@ void GhostPanel::choose_columns() {
         action->setData(column);
     }
     menu.addSeparator();
-    QAction* usual = menu.addAction("The Usual Ones");
+    QAction* usual = menu.addAction(tr("The Usual Ones"));
     QAction* taken = menu.exec(QCursor::pos());
     if (taken == nullptr) {
         return;
@@ -380,7 +380,18 @@ void GhostPanel::set_table(std::shared_ptr<const GhostTable> table) {
     matrix_->show_table(table);
     {
         const QSignalBlocker quiet(surfaces_->selectionModel());
+        std::vector<std::size_t> open;  // groups that stay so
+        for (int row = 0; row < sums_->rowCount(); ++row) {
+            if (surfaces_->isExpanded(sums_->index(row, 0))) {
+                open.push_back(sums_->sum(row).surface);
+            }
+        }
         sums_->set_table(table);
+        for (const std::size_t surface : open) {
+            if (const QModelIndex group = sums_->group_of(surface); group.isValid()) {
+                surfaces_->expand(group);
+            }
+        }
     }
     filter_->invalidate();
     selecting_ = false;
@@ -444,8 +455,54 @@ void GhostPanel::select_from_views() {
     selecting_ = false;
 }
 
+void GhostPanel::select_from_groups() {
+    if (selecting_) {
+        return;
+    }
+    std::vector<GhostPath> ghosts;
+    for (const QModelIndex& index : surfaces_->selectionModel()->selectedRows()) {
+        if (const GhostRow* row = sums_->ghost(index)) {
+            if (std::ranges::find(ghosts, row->path) == ghosts.end()) {
+                ghosts.push_back(row->path);
+            }
+        } else {
+            const std::size_t surface = sums_->sum(index.row()).surface;
+            words_->setText(surface == sums_->surface_count()
+                                ? QStringLiteral("touches sensor")
+                                : QStringLiteral("touches %1").arg(surface + 1));
+        }
+    }
+    if (!ghosts.empty()) {
+        in_groups_ = true;
+        selection_.set_ghosts(std::move(ghosts));
+        in_groups_ = false;
+    }
+}
+
+void GhostPanel::select_in_groups() {
+    if (in_groups_) {
+        return;
+    }
+    QItemSelection rows;
+    for (int group = 0; group < sums_->rowCount(); ++group) {
+        const QModelIndex top = sums_->index(group, 0);
+        for (int k = 0; k < sums_->rowCount(top); ++k) {
+            const QModelIndex index = sums_->index(k, 0, top);
+            if (std::ranges::find(selection_.ghosts(), sums_->ghost(index)->path) !=
+                selection_.ghosts().end()) {
+                rows.select(index, index);
+            }
+        }
+    }
+    const bool selecting = std::exchange(selecting_, true);
+    surfaces_->selectionModel()->select(
+        rows, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
+    selecting_ = selecting;
+}
+
 void GhostPanel::select_in_table() {
     matrix_->set_selected(selection_.ghosts());
+    select_in_groups();
     if (selecting_) {
         return;
     }
@@ -471,7 +528,7 @@ void GhostPanel::show_state() {
     if (!model_->table()) {
         pages_->setCurrentWidget(is_working_ ? working_ : failed_ ? cannot_ : empty_);
         header_->set_state(is_working_ && progress_ > 0.0
-                               ? QStringLiteral("tracing %1 %").arg(qRound(progress_ * 100.0))
+                               ? tr("tracing %1 %").arg(qRound(progress_ * 100.0))
                                : QString());
         return;
     }
@@ -480,17 +537,16 @@ void GhostPanel::show_state() {
                              : look_ == Look::surfaces ? static_cast<QWidget*>(surfaces_)
                                                        : table_);
     const int listed = filter_->rowCount();
-    QString state =
-        listed == all ? QString::number(all) : QStringLiteral("%1 of %2").arg(listed).arg(all);
+    QString state = listed == all ? QString::number(all) : tr("%1 of %2").arg(listed).arg(all);
     const QHeaderView* order = table_->horizontalHeader();
-    state += QStringLiteral(" · by %1 %2")
+    state += tr(" · by %1 %2")
                  .arg(sorted_by(order->sortIndicatorSection()),
                       order->sortIndicatorOrder() == Qt::DescendingOrder ? "▾" : "▴");
     if (is_refining()) {
-        state += progress_ > 0.0 ? QStringLiteral(" · refining %1 %").arg(qRound(progress_ * 100.0))
-                                 : QStringLiteral(" · refining");
+        state += progress_ > 0.0 ? tr(" · refining %1 %").arg(qRound(progress_ * 100.0))
+                                 : tr(" · refining");
     } else if (failed_) {
-        state += QStringLiteral(" · of the last lens that could be traced");
+        state += tr(" · of the last lens that could be traced");
     }
     header_->set_state(state);
 }

@@ -11,6 +11,7 @@ class QLabel;
 class QLineEdit;
 class QStackedWidget;
 class QTableView;
+class QTreeView;
 class QToolButton;
 
 namespace ghostlight {
@@ -35,7 +36,7 @@ class GhostPanel : public QWidget {
     GhostTableModel& model() { return *model_; }
     QTableView& table() { return *table_; }
     GhostMatrix& matrix() { return *matrix_; }
-    QTableView& surfaces() { return *surfaces_; }
+    QTreeView& surfaces() { return *surfaces_; }
     QLineEdit& filter_line() { return *words_; }
     /// What is wrong with the filter's words; empty if nothing is.
     QString filter_problem() const;
@@ -63,6 +64,8 @@ class GhostPanel : public QWidget {
     void choose_columns();
     void set_threshold(double share);
     void select_from_views();
+    void select_from_groups();
+    void select_in_groups();
     void select_in_table();
     void show_state();
     bool is_refining() const;
@@ -75,7 +78,7 @@ class GhostPanel : public QWidget {
     QTableView* table_;
     GhostMatrix* matrix_;
     SurfaceSumsModel* sums_;
-    QTableView* surfaces_;
+    QTreeView* surfaces_;
     QFrame* strip_ = nullptr;
     QFrame* words_frame_ = nullptr;
     QLineEdit* words_ = nullptr;
@@ -89,6 +92,7 @@ class GhostPanel : public QWidget {
     double progress_ = 0.0;
     bool failed_ = false;
     bool selecting_ = false;
+    bool in_groups_ = false;  ///< what is chosen was chosen there
 };
 
 }  // namespace ghostlight

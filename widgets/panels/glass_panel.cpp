@@ -40,30 +40,31 @@ QString fixed(std::optional<double> value, int decimals) {
 GlassPanel::GlassPanel(Document& document, QWidget* parent)
     : QWidget(parent),
       document_(document),
-      header_(new PanelHeader("Glasses")),
+      header_(new PanelHeader(tr("Glasses"))),
       search_(new QLineEdit),
       map_(new GlassMapView),
       model_(new QStandardItemModel(0, 6, this)),
       table_(plain_table(model_, new TableDelegate(-1, -1, this))),
       surface_(new QLabel),
-      use_(quiet_button("Use", "Put the chosen glass behind the surface in hand", false)),
-      nearest_(quiet_button("Replace by Nearest",
-                            "Put the catalogues' nearest glass, by nd and Vd, behind the surface "
-                            "in hand",
-                            false)) {
+      use_(quiet_button(tr("Use"), tr("Put the chosen glass behind the surface in hand"), false)),
+      nearest_(
+          quiet_button(tr("Replace by Nearest"),
+                       tr("Put the catalogues' nearest glass, by nd and Vd, behind the surface "
+                          "in hand"),
+                       false)) {
     setObjectName("glass_panel");
-    search_->setPlaceholderText("Name, code 517642, or nd / Vd");
+    search_->setPlaceholderText(tr("Name, code 517642, or nd / Vd"));
     search_->setClearButtonEnabled(true);
-    search_->setAccessibleName("Search glasses");
-    search_->setToolTip(
+    search_->setAccessibleName(tr("Search glasses"));
+    search_->setToolTip(tr(
         "Part of a name (bk7), a six-digit code (517642), or a place (1.62 / 36.4), whose nearest\n"
-        "glasses come first");
-    model_->setHorizontalHeaderLabels({"Glass", "nd", "Vd", "PgF", "ΔPgF", "Catalogue"});
-    model_->horizontalHeaderItem(1)->setToolTip("Index at the d line, 587.56 nm");
-    model_->horizontalHeaderItem(2)->setToolTip("Abbe number (nd − 1)/(nF − nC)");
-    model_->horizontalHeaderItem(3)->setToolTip("Partial dispersion (ng − nF)/(nF − nC)");
+        "glasses come first"));
+    model_->setHorizontalHeaderLabels({tr("Glass"), "nd", "Vd", "PgF", "ΔPgF", tr("Catalogue")});
+    model_->horizontalHeaderItem(1)->setToolTip(tr("Index at the d line, 587.56 nm"));
+    model_->horizontalHeaderItem(2)->setToolTip(tr("Abbe number (nd − 1)/(nF − nC)"));
+    model_->horizontalHeaderItem(3)->setToolTip(tr("Partial dispersion (ng − nF)/(nF − nC)"));
     model_->horizontalHeaderItem(4)->setToolTip(
-        "PgF off the normal line 0.6438 − 0.001682 Vd: what apochromats are made with");
+        tr("PgF off the normal line 0.6438 − 0.001682 Vd: what apochromats are made with"));
     for (int column = 1; column < 5; ++column) {
         model_->horizontalHeaderItem(column)->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
     }
@@ -178,10 +179,10 @@ void GlassPanel::find() {
     is_filling_ = false;
     map_->show_glasses(&glasses_, found_);
     header_->set_warning(found_.empty());
-    header_->set_state(found_.empty() ? QStringLiteral("nothing found")
+    header_->set_state(found_.empty() ? tr("nothing found")
                        : found_.size() == glasses_.size()
-                           ? QStringLiteral("%1 glasses").arg(glasses_.size())
-                           : QStringLiteral("%1 of %2").arg(found_.size()).arg(glasses_.size()));
+                           ? tr("%n glass(es)", nullptr, static_cast<int>(glasses_.size()))
+                           : tr("%1 of %2").arg(found_.size()).arg(glasses_.size()));
     choose(chosen_ && std::ranges::find(found_, *chosen_) != found_.end() ? chosen_ : std::nullopt);
 }
 
@@ -231,11 +232,11 @@ void GlassPanel::follow_document() {
     const auto glass = present();
     map_->set_ring(glass);
     surface_->setText(has_row
-                          ? QStringLiteral("Behind surface %1: %2")
+                          ? tr("Behind surface %1: %2")
                                 .arg(QString::number(row_ + 1),
                                      QString::fromStdString(describe(
                                          surfaces[static_cast<std::size_t>(row_)].medium_after)))
-                          : QStringLiteral("Choose a surface in the prescription"));
+                          : tr("Choose a surface in the prescription"));
     use_->setEnabled(has_row && chosen_.has_value());
     nearest_->setEnabled(glass.has_value());
 }
@@ -243,16 +244,16 @@ void GlassPanel::follow_document() {
 void GlassPanel::put(std::size_t glass) {
     const auto& surfaces = document_.lens().surfaces;
     if (row_ < 0 || static_cast<std::size_t>(row_) >= surfaces.size()) {
-        Q_EMIT refused("Choose the surface in the prescription first.");
+        Q_EMIT refused(tr("Choose the surface in the prescription first."));
         return;
     }
     Prescription lens = document_.lens();
     const Medium& medium = glasses_[glass].glass.medium;
     lens.surfaces[static_cast<std::size_t>(row_)].medium_after = medium;
     Q_EMIT refused({});
-    document_.edit_lens(std::move(lens), QStringLiteral("put %1 behind surface %2")
-                                             .arg(QString::fromStdString(medium.name))
-                                             .arg(row_ + 1));
+    document_.edit_lens(
+        std::move(lens),
+        tr("put %1 behind surface %2").arg(QString::fromStdString(medium.name)).arg(row_ + 1));
 }
 
 void GlassPanel::put_nearest() {

@@ -23,9 +23,11 @@ namespace ghostlight {
 
 namespace {
 
-constexpr const char* what_is_here =
-    "What became of each line of a lens file from another program: read, converted, assumed or "
-    "left out, and whether it matters for flare.";
+QString what_is_here() {
+    return ImportReportPanel::tr(
+        "What became of each line of a lens file from another program: read, converted, assumed or "
+        "left out, and whether it matters for flare.");
+}
 
 QTableView* make_table(QAbstractItemModel* model, QObject* parent) {
     QTableView* table = plain_table(model, new TableDelegate(-1, -1, parent));
@@ -37,10 +39,6 @@ QTableView* make_table(QAbstractItemModel* model, QObject* parent) {
     return table;
 }
 
-QString counted(int count, const char* one, const char* many) {
-    return QStringLiteral("%1 %2").arg(count).arg(QString::fromUtf8(count == 1 ? one : many));
-}
-
 }  // namespace
 
 ImportReportPanel::ImportReportPanel(Document& document, const Actions& actions, QWidget* parent)
@@ -49,9 +47,9 @@ ImportReportPanel::ImportReportPanel(Document& document, const Actions& actions,
       actions_(actions),
       model_(new NoteTableModel(this)),
       filter_(new NoteFilter(this)),
-      header_(new PanelHeader("Import report")),
+      header_(new PanelHeader(tr("Import report"))),
       table_(nullptr),
-      empty_(new EmptyState(what_is_here, "Open a lens…")),
+      empty_(new EmptyState(what_is_here(), tr("Open a lens…"))),
       remark_(new EmptyState(QString(), QString())),
       pages_(new QStackedWidget) {
     filter_->setSourceModel(model_);
@@ -127,24 +125,23 @@ void ImportReportPanel::show_state() {
     const bool nothing_matters = filter_->only_what_matters() && filter_->rowCount() == 0;
     empty_text_.clear();
     if (document_.is_empty()) {
-        empty_text_ = QString::fromUtf8(what_is_here);
+        empty_text_ = what_is_here();
     } else if (model_->rowCount() == 0) {
-        empty_text_ = !exported_.isEmpty()
-                          ? QStringLiteral("%1 holds all of the lens.").arg(exported_)
+        empty_text_ = !exported_.isEmpty() ? tr("%1 holds all of the lens.").arg(exported_)
                       : document_.file().empty()
-                          ? QStringLiteral("This lens has no file yet.")
-                          : QStringLiteral("%1 was read without a remark.")
+                          ? tr("This lens has no file yet.")
+                          : tr("%1 was read without a remark.")
                                 .arg(QString::fromStdString(document_.file().filename().string()));
     } else if (nothing_matters) {
-        empty_text_ = QStringLiteral("Nothing here matters for flare. %1 more.")
-                          .arg(counted(model_->rowCount(), "line", "lines"));
+        empty_text_ =
+            tr("Nothing here matters for flare. %n line(s) more.", nullptr, model_->rowCount());
     }
     remark_->set_what(empty_text_);
     pages_->setCurrentWidget(empty_text_.isEmpty()  ? static_cast<QWidget*>(table_)
                              : document_.is_empty() ? empty_
                                                     : remark_);
 
-    QString state = exported_.isEmpty() ? QString() : QStringLiteral("export to %1").arg(exported_);
+    QString state = exported_.isEmpty() ? QString() : tr("export to %1").arg(exported_);
     if (model_->rowCount() > 0) {
         const int to_mend = model_->count(Note::Severity::error);
         QStringList parts;
@@ -152,13 +149,13 @@ void ImportReportPanel::show_state() {
             parts << state;
         }
         if (to_mend > 0) {
-            parts << QStringLiteral("%1 to mend").arg(to_mend);
+            parts << tr("%1 to mend").arg(to_mend);
         }
-        parts << QStringLiteral("%1 of %2 matter for flare")
+        parts << tr("%1 of %2 matter for flare")
                      .arg(model_->count_what_matters())
                      .arg(model_->rowCount());
         if (filter_->only_what_matters()) {
-            parts << QStringLiteral("only these shown");
+            parts << tr("only these shown");
         }
         state = parts.join(" · ");
     }

@@ -2,6 +2,7 @@
 
 #include <QFileDialog>
 #include <QHBoxLayout>
+#include <QMenu>
 #include <QToolButton>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include "widgets/number_text.h"
 #include "widgets/panels/quiet_button.h"
 #include "widgets/panels/scene_field.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -21,23 +23,27 @@ namespace {
 constexpr double gain_step_ev = 0.5;
 
 struct LayerText {
-    const char* title;
-    const char* tip;
+    QString title;
+    QString tip;
 };
 LayerText text_of(LayerKind kind) {
     switch (kind) {
         case LayerKind::ghosts:
-            return {"Ghosts", "Light that was reflected between surfaces."};
+            return {LayersStrip::tr("Ghosts"),
+                    LayersStrip::tr("Light that was reflected between surfaces.")};
         case LayerKind::starburst:
-            return {"Starburst", "The direct image, spread by diffraction at the stop."};
+            return {LayersStrip::tr("Starburst"),
+                    LayersStrip::tr("The direct image, spread by diffraction at the stop.")};
         case LayerKind::veil:
-            return {"Veil",
-                    "Ghosts folded away and light scattered by the lens; both are set in the Light "
-                    "panel."};
+            return {LayersStrip::tr("Veil"),
+                    LayersStrip::tr("Ghosts folded away and light scattered by the lens; both are "
+                                    "set in the Light panel.")};
         case LayerKind::backdrop:
             break;
     }
-    return {"Backdrop", "A picture behind the flare. Its white is a white surface in the sun."};
+    return {
+        LayersStrip::tr("Backdrop"),
+        LayersStrip::tr("A picture behind the flare. Its white is a white surface in the sun.")};
 }
 
 }  // namespace
@@ -45,7 +51,7 @@ LayerText text_of(LayerKind kind) {
 LayersStrip::LayersStrip(Document& document, QWidget* parent)
     : QFrame(parent), document_(document) {
     setObjectName("layers_strip");
-    setFixedHeight(40);
+    set_line_height(*this, 40);
     // The docks beside the flare keep their widths, however many layers are on.
     setMinimumWidth(1);
     setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
@@ -55,11 +61,15 @@ LayersStrip::LayersStrip(Document& document, QWidget* parent)
     for (const LayerKind kind : layer_kinds) {
         add_row(kind);
     }
+    more_ = quiet_button("⋯", tr("Gains and switches that have no room here"), false);
+    more_->hide();
+    row->addWidget(more_);
     row->addStretch(1);
+    connect(more_, &QToolButton::clicked, this, &LayersStrip::show_more);
     ask_backdrop = [this] {
         return QFileDialog::getOpenFileName(
-            window(), "A picture behind the flare", {},
-            "Pictures (*.exr *.hdr *.png *.jpg *.jpeg *.tif *.tiff);;All files (*)");
+            window(), tr("A picture behind the flare"), {},
+            tr("Pictures (*.exr *.hdr *.png *.jpg *.jpeg *.tif *.tiff);;All files (*)"));
     };
     connect(&document_, &Document::changed, this, &LayersStrip::follow_document);
     follow_document();
@@ -70,26 +80,26 @@ void LayersStrip::add_row(LayerKind kind) {
     const LayerText text = text_of(kind);
     row.on = quiet_button(text.title, text.tip, true);
     row.gain = new NumberField("", " EV",
-                               QStringLiteral("Gain of the layer %1, −40 to +40 EV. Wheel or "
-                                              "arrows: half a stop.")
+                               tr("Gain of the layer %1, −40 to +40 EV. Wheel or "
+                                  "arrows: half a stop.")
                                    .arg(QString(text.title).toLower()));
-    row.reset = quiet_button("↺", "Back to 0 EV", false);
-    row.alone = quiet_button("◎", "Show this layer alone; again for all", true);
+    row.reset = quiet_button("↺", tr("Back to 0 EV"), false);
+    row.alone = quiet_button("◎", tr("Show this layer alone; again for all"), true);
     auto* strip = static_cast<QHBoxLayout*>(layout());
     strip->addWidget(row.on);
     strip->addWidget(row.gain);
     strip->addWidget(row.reset);
     strip->addWidget(row.alone);
     if (kind == LayerKind::ghosts) {
-        ringing_ = quiet_button("ringing",
-                                "Diffraction at the ghosts' rims, where its fringes are a pixel "
-                                "wide or more; at rest",
+        ringing_ = quiet_button(tr("Ringing"),
+                                tr("Diffraction at the ghosts' rims, where its fringes are a pixel "
+                                   "wide or more; at rest"),
                                 true);
         strip->addWidget(ringing_);
         connect(ringing_, &QToolButton::clicked, this, [this](bool on) {
             Scene scene = document_.scene();
             scene.ringing = on;
-            document_.edit_scene(scene, on ? "ring the ghosts' rims" : "leave rims sharp");
+            document_.edit_scene(scene, on ? tr("ring the ghosts' rims") : tr("leave rims sharp"));
         });
     }
     strip->addSpacing(8);
@@ -97,25 +107,24 @@ void LayersStrip::add_row(LayerKind kind) {
     connect(row.alone, &QToolButton::clicked, this, [this, kind](bool on) {
         Scene scene = document_.scene();
         scene.layers.alone = on ? std::optional(kind) : std::nullopt;
-        document_.edit_scene(scene, "show a layer alone");
+        document_.edit_scene(scene, tr("show a layer alone"));
     });
     connect(row.reset, &QToolButton::clicked, this, [this, kind] { set_gain(kind, 0.0); });
     connect(row.gain, &NumberField::stepped, this, [this, kind](int steps) {
         set_gain(kind, document_.scene().layers.of(kind).gain_ev + steps * gain_step_ev);
     });
-    connect(
-        row.gain, &NumberField::entered, this, [this, kind, field = row.gain](const auto& typed) {
-            const auto value = parse_number(typed);
-            const bool fits = value && std::abs(*value) <= most_ev;
-            field->set_refused(!fits);
-            Q_EMIT refused(fits
-                               ? QString()
-                               : QStringLiteral("a gain: found '%1', expected stops from −40 to 40")
-                                     .arg(typed));
-            if (fits) {
-                set_gain(kind, *value);
-            }
-        });
+    connect(row.gain, &NumberField::entered, this,
+            [this, kind, field = row.gain](const auto& typed) {
+                const auto value = parse_number(typed);
+                const bool fits = value && std::abs(*value) <= most_ev;
+                field->set_refused(!fits);
+                Q_EMIT refused(
+                    fits ? QString()
+                         : tr("a gain: found '%1', expected stops from −40 to 40").arg(typed));
+                if (fits) {
+                    set_gain(kind, *value);
+                }
+            });
 }
 
 void LayersStrip::switch_layer(LayerKind kind, bool on) {
@@ -129,13 +138,13 @@ void LayersStrip::switch_layer(LayerKind kind, bool on) {
         scene.backdrop.file = file.toStdString();
     }
     scene.layers.of(kind).on = on;
-    document_.edit_scene(scene, on ? "show a layer" : "hide a layer");
+    document_.edit_scene(scene, on ? tr("show a layer") : tr("hide a layer"));
 }
 
 void LayersStrip::set_gain(LayerKind kind, double gain_ev) {
     Scene scene = document_.scene();
     scene.layers.of(kind).gain_ev = std::clamp(gain_ev, -most_ev, most_ev);
-    document_.edit_scene(scene, "change the gain of a layer",
+    document_.edit_scene(scene, tr("change the gain of a layer"),
                          "gain " + QString::fromUtf8(name(kind).data()));
 }
 
@@ -153,11 +162,75 @@ void LayersStrip::follow_document() {
         row.gain->setEnabled(layers.shows(kind));
         row.gain->set_text(at_least_decimals(std::round(setting.gain_ev * 100.0) / 100.0, 1));
         row.reset->setEnabled(setting.gain_ev != 0.0);
-        // What is off takes no room but its name.
-        row.gain->setVisible(layers.shows(kind));
-        row.reset->setVisible(layers.shows(kind) && setting.gain_ev != 0.0);
-        row.alone->setVisible(setting.on || layers.alone == kind);
     }
+    fit_width();
+}
+
+void LayersStrip::fit_width() {
+    const LayerSettings& layers = document_.scene().layers;
+    enum Room { all, no_alone, no_gains, names };
+    const auto show_for = [&](int room) {
+        for (const LayerKind kind : layer_kinds) {
+            // What is off takes no room but its name.
+            const Row& row = rows_[static_cast<std::size_t>(kind)];
+            const LayerSetting& setting = layers.of(kind);
+            const bool gained = setting.gain_ev != 0.0;
+            row.alone->setVisible(room < no_alone && (setting.on || layers.alone == kind));
+            row.gain->setVisible(room < no_gains && layers.shows(kind));
+            row.reset->setVisible(room < no_gains && layers.shows(kind) && gained);
+        }
+        ringing_->setVisible(room < names);
+        more_->setVisible(room > all);
+    };
+    // Names stay whole; what has no room goes into the menu, the least wanted first.
+    for (int room = all; room <= names; ++room) {
+        show_for(room);
+        layout()->invalidate();
+        if (layout()->sizeHint().width() <= width()) {
+            break;
+        }
+    }
+}
+
+void LayersStrip::show_more() {
+    auto* menu = new QMenu(this);
+    menu->setObjectName("more_of_layers");
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    const LayerSettings& layers = document_.scene().layers;
+    for (const LayerKind kind : layer_kinds) {
+        const Row& row = rows_[static_cast<std::size_t>(kind)];
+        menu->addSection(row.on->text());
+        if (layers.shows(kind)) {
+            const double gain_ev = layers.of(kind).gain_ev;
+            const auto offer = [&](const QString& text, double to_ev) {
+                connect(menu->addAction(text), &QAction::triggered, this,
+                        [this, kind, to_ev] { set_gain(kind, to_ev); });
+            };
+            offer(tr("Half a Stop Brighter"), gain_ev + gain_step_ev);
+            offer(tr("Half a Stop Darker"), gain_ev - gain_step_ev);
+            if (gain_ev != 0.0) {
+                offer(row.reset->toolTip(), 0.0);
+            }
+        }
+        QAction* alone = menu->addAction(tr("This Layer Alone"));
+        alone->setCheckable(true);
+        alone->setChecked(row.alone->isChecked());
+        alone->setEnabled(row.alone->isEnabled());
+        connect(alone, &QAction::triggered, row.alone, &QToolButton::click);
+        if (kind == LayerKind::ghosts) {
+            QAction* ringing = menu->addAction(ringing_->text());
+            ringing->setCheckable(true);
+            ringing->setChecked(ringing_->isChecked());
+            ringing->setEnabled(ringing_->isEnabled());
+            connect(ringing, &QAction::triggered, ringing_, &QToolButton::click);
+        }
+    }
+    menu->popup(more_->mapToGlobal(QPoint(0, -menu->sizeHint().height())));
+}
+
+void LayersStrip::resizeEvent(QResizeEvent* event) {
+    QFrame::resizeEvent(event);
+    fit_width();
 }
 
 }  // namespace ghostlight

@@ -22,6 +22,8 @@ class LayersStrip : public QFrame {
 
     QToolButton& on(LayerKind kind) { return *rows_[static_cast<std::size_t>(kind)].on; }
     QToolButton& ringing() { return *ringing_; }
+    /// A menu of what has no room; hidden where everything has.
+    QToolButton& more() { return *more_; }
     QToolButton& alone(LayerKind kind) { return *rows_[static_cast<std::size_t>(kind)].alone; }
     NumberField& gain(LayerKind kind) { return *rows_[static_cast<std::size_t>(kind)].gain; }
 
@@ -31,6 +33,9 @@ class LayersStrip : public QFrame {
    Q_SIGNALS:
     /// An entry was not taken, and why; empty when one was.
     void refused(const QString& reason);
+
+   protected:
+    void resizeEvent(QResizeEvent* event) override;
 
    private:
     struct Row {
@@ -43,10 +48,14 @@ class LayersStrip : public QFrame {
     void switch_layer(LayerKind kind, bool on);
     void set_gain(LayerKind kind, double gain_ev);
     void follow_document();
+    /// As many parts as there is room for.
+    void fit_width();
+    void show_more();
 
     Document& document_;
     std::array<Row, layer_kinds.size()> rows_;
     QToolButton* ringing_ = nullptr;
+    QToolButton* more_ = nullptr;
 };
 
 }  // namespace ghostlight

@@ -22,6 +22,7 @@
 #include "widgets/panels/quiet_button.h"
 #include "widgets/panels/scene_field.h"
 #include "widgets/selection.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -53,13 +54,13 @@ LightPanel::LightPanel(Document& document, Selection& selection, QWidget* parent
       document_(document),
       selection_(selection),
       list_(new QListWidget),
-      add_(quiet_button("+ Add", "Another light like this one, 5° further up", false)),
-      remove_(quiet_button("− Remove", "Take this light away", false)) {
+      add_(quiet_button(tr("+ Add"), tr("Another light like this one, 5° further up"), false)),
+      remove_(quiet_button(tr("− Remove"), tr("Take this light away"), false)) {
     setObjectName("light_panel");
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
-    column->addWidget(new PanelHeader("Light"));
+    column->addWidget(new PanelHeader(tr("Light")));
     auto* content = new QWidget;
     auto* rows = new QVBoxLayout(content);
     rows->setContentsMargins(0, 0, 0, 12);
@@ -113,7 +114,7 @@ QWidget* with_reset(QWidget* field, QWidget* reset) {
 QLabel* dim_label(const QString& text) {
     auto* label = new QLabel(text);
     label->setForegroundRole(QPalette::PlaceholderText);
-    label->setMinimumHeight(28);
+    follow_text_scale(*label, [label] { label->setMinimumHeight(with_text(28)); });
     return label;
 }
 
@@ -121,12 +122,12 @@ QLabel* dim_label(const QString& text) {
 
 void LightPanel::add_number(QFormLayout& form, Number number) {
     const QString range =
-        QStringLiteral("From %1 to %2%3. Wheel or arrows: %4.")
+        tr("From %1 to %2%3. Wheel or arrows: %4.")
             .arg(shown(number.low), shown(number.high), number.unit, shown(number.step));
     number.field = new NumberField("", number.unit, number.tip + "\n" + range);
     number.field->editor().setAccessibleName(number.label);
-    number.reset = quiet_button(
-        "↺", QStringLiteral("Back to %1%2").arg(shown(number.normal), number.unit), false);
+    number.reset =
+        quiet_button("↺", tr("Back to %1%2").arg(shown(number.normal), number.unit), false);
     form.addRow(dim_label(number.label), with_reset(number.field, number.reset));
     const std::size_t at = numbers_.size();
     numbers_.push_back(number);
@@ -141,7 +142,7 @@ void LightPanel::add_number(QFormLayout& form, Number number) {
         const bool fits = value && *value >= of.low && *value <= of.high;
         of.field->set_refused(!fits);
         Q_EMIT refused(fits ? QString()
-                            : QStringLiteral("%1: found '%2', expected %3 to %4%5")
+                            : tr("%1: found '%2', expected %3 to %4%5")
                                   .arg(of.label, text, shown(of.low), shown(of.high), of.unit));
         if (fits) {
             enter(at, *value);
@@ -155,7 +156,7 @@ void LightPanel::enter(std::size_t number, double value) {
     const Number& of = numbers_[number];
     Scene scene = document_.scene();
     of.set(scene, value);
-    document_.edit_scene(scene, "change " + of.label.toLower(), "light panel " + of.id);
+    document_.edit_scene(scene, tr("change %1").arg(of.label.toLower()), "light panel " + of.id);
 }
 
 void LightPanel::add_choice(QFormLayout& form, const QString& label, const QString& tip,
@@ -163,7 +164,7 @@ void LightPanel::add_choice(QFormLayout& form, const QString& label, const QStri
     choice.field = new ChoiceField("", tip, editable);
     choice.field->box().setAccessibleName(label);
     choice.field->set_choices(choices);
-    choice.reset = quiet_button("↺", "Back to " + choice.normal, false);
+    choice.reset = quiet_button("↺", tr("Back to %1").arg(choice.normal), false);
     form.addRow(dim_label(label), with_reset(choice.field, choice.reset));
     const std::size_t at = choices_.size();
     choices_.push_back(choice);
@@ -174,7 +175,8 @@ void LightPanel::add_choice(QFormLayout& form, const QString& label, const QStri
             of.set(scene, text.trimmed());
             of.field->set_refused(false);
             Q_EMIT refused({});
-            document_.edit_scene(scene, "change " + label.toLower(), "light panel " + of.id);
+            document_.edit_scene(scene, tr("change %1").arg(label.toLower()),
+                                 "light panel " + of.id);
         } catch (const Error& error) {
             of.field->set_refused(true);
             Q_EMIT refused(error.what());
@@ -187,11 +189,11 @@ void LightPanel::add_choice(QFormLayout& form, const QString& label, const QStri
 
 void LightPanel::build_lights(QVBoxLayout& column) {
     list_->setObjectName("light_list");
-    list_->setAccessibleName("Lights");
+    list_->setAccessibleName(tr("Lights"));
     list_->setToolTip(
-        "Lights of the scene. The chosen one is what the ghost table, the rays and "
-        "the scene bar are about.");
-    list_->setFixedHeight(92);
+        tr("Lights of the scene. The chosen one is what the ghost table, the rays and "
+           "the scene bar are about."));
+    set_line_height(*list_, 92);
     list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     list_->setTextElideMode(Qt::ElideRight);
     column.addWidget(list_);
@@ -209,7 +211,7 @@ void LightPanel::build_lights(QVBoxLayout& column) {
         }
         Scene scene = document_.scene();
         scene.active_light = static_cast<std::size_t>(row);
-        document_.edit_scene(scene, "choose another light", "active light");
+        document_.edit_scene(scene, tr("choose another light"), "active light");
     });
     connect(list_, &QListWidget::itemChanged, this, [this](const QListWidgetItem* item) {
         const int row = list_->row(item);
@@ -218,55 +220,58 @@ void LightPanel::build_lights(QVBoxLayout& column) {
         }
         Scene scene = document_.scene();
         scene.lights[static_cast<std::size_t>(row)].on = item->checkState() == Qt::Checked;
-        document_.edit_scene(scene, "switch a light");
+        document_.edit_scene(scene, tr("switch a light"));
     });
 
-    QFormLayout* form = add_section(column, "Chosen light");
-    add_number(*form,
-               {"field", "Field", "°", "Angle from the axis.", -most_field_deg, most_field_deg, 0.5,
-                10.0, [](const Scene& s) { return s.light().direction.field_deg; },
-                [](Scene& s, double v) { s.light().direction.field_deg = v; }});
-    add_number(*form,
-               {"azimuth", "Azimuth", "°", "Direction about the axis; 90° is upright.", -180.0,
-                180.0, 5.0, 90.0, [](const Scene& s) { return s.light().direction.azimuth_deg; },
-                [](Scene& s, double v) { s.light().direction.azimuth_deg = v; }});
-    add_choice(*form, "Spectrum",
-               "D65, A, E, LED-B3, sodium, a black body (5500 K), one wavelength (587.5618 nm), or "
-               "a table (the name of a .csv file with wavelength and power)",
-               true, {"D65", "A", "E", "LED-B3", "sodium", "5500 K", "3200 K", "587.5618 nm"},
-               {"spectrum",
-                [](const Scene& s) { return QString::fromStdString(name(s.light().spectrum)); },
-                [](Scene& s, const QString& text) {
-                    // A table is known by its name alone once it has been read.
-                    if (text.toStdString() != name(s.light().spectrum)) {
-                        s.light().spectrum = spectrum_by_name(text.toStdString());
-                    }
-                },
-                "D65"});
+    QFormLayout* form = add_section(column, tr("Chosen light"));
+    add_number(*form, {"field", tr("Field"), "°", tr("Angle from the axis."), -most_field_deg,
+                       most_field_deg, 0.5, 10.0,
+                       [](const Scene& s) { return s.light().direction.field_deg; },
+                       [](Scene& s, double v) { s.light().direction.field_deg = v; }});
+    add_number(*form, {"azimuth", tr("Azimuth"), "°",
+                       tr("Direction about the axis; 90° is upright."), -180.0, 180.0, 5.0, 90.0,
+                       [](const Scene& s) { return s.light().direction.azimuth_deg; },
+                       [](Scene& s, double v) { s.light().direction.azimuth_deg = v; }});
     add_choice(
-        *form, "Size",
-        "point, sun (a disc of 0.533°), disc DEG, or picture FILE DEG (its width), up to 20°", true,
-        {"point", "sun", "disc 2", "disc 5"},
+        *form, tr("Spectrum"),
+        tr("D65, A, E, LED-B3, sodium, a black body (5500 K), one wavelength (587.5618 nm), or "
+           "a table (the name of a .csv file with wavelength and power)"),
+        true, {"D65", "A", "E", "LED-B3", "sodium", "5500 K", "3200 K", "587.5618 nm"},
+        {"spectrum",
+         [](const Scene& s) { return QString::fromStdString(name(s.light().spectrum)); },
+         [](Scene& s, const QString& text) {
+             // A table is known by its name alone once it has been read.
+             if (text.toStdString() != name(s.light().spectrum)) {
+                 s.light().spectrum = spectrum_by_name(text.toStdString());
+             }
+         },
+         "D65"});
+    add_choice(
+        *form, tr("Size"),
+        tr("point, sun (a disc of 0.533°), disc DEG, or picture FILE DEG (its width), up to 20°"),
+        true, {"point", "sun", "disc 2", "disc 5"},
         {"size", [](const Scene& s) { return QString::fromStdString(name(s.light().size)); },
          [](Scene& s, const QString& text) {
              s.light().size = parse_light_size(text.toStdString());
          },
          "point"});
-    add_number(*form, {"intensity", "Intensity", " EV",
-                       "Stops over the irradiance E0 that pictures are relative to.", -most_ev,
+    add_number(*form, {"intensity", tr("Intensity"), " EV",
+                       tr("Stops over the irradiance E0 that pictures are relative to."), -most_ev,
                        most_ev, 0.5, 0.0, [](const Scene& s) { return s.light().intensity_ev; },
                        [](Scene& s, double v) { s.light().intensity_ev = v; }});
 }
 
 void LightPanel::build_veil(QVBoxLayout& column) {
-    QFormLayout* form = add_section(column, "Veil");
-    add_number(*form, {"folded", "Folded ghosts", " %",
-                       "Ghosts of the least irradiance go into the veil, up to this share of the "
-                       "ghosts' light, while the layer Veil is on.",
-                       0.0, 100.0 * most_folded_share, 1.0, 0.0,
-                       [](const Scene& s) { return 100.0 * s.veil.folded_share; },
-                       [](Scene& s, double v) { s.veil.folded_share = 0.01 * v; }});
-    add_choice(*form, "Kernel", "What stands for a folded ghost", false, {"ellipse", "gaussian"},
+    QFormLayout* form = add_section(column, tr("Veil"));
+    add_number(*form,
+               {"folded", tr("Folded ghosts"), " %",
+                tr("Ghosts of the least irradiance go into the veil, up to this share of the "
+                   "ghosts' light, while the layer Veil is on."),
+                0.0, 100.0 * most_folded_share, 1.0, 0.0,
+                [](const Scene& s) { return 100.0 * s.veil.folded_share; },
+                [](Scene& s, double v) { s.veil.folded_share = 0.01 * v; }});
+    add_choice(*form, tr("Kernel"), tr("What stands for a folded ghost"), false,
+               {"ellipse", "gaussian"},
                {"kernel",
                 [](const Scene& s) {
                     return s.veil.kernel == VeilKernel::ellipse ? "ellipse" : "gaussian";
@@ -276,51 +281,54 @@ void LightPanel::build_veil(QVBoxLayout& column) {
                 },
                 "ellipse"});
     add_number(*form,
-               {"scatter", "Scattered light", " %",
-                "Share of the direct light that the lens scatters about its image. Dust and "
-                "age decide it, not the prescription.",
+               {"scatter", tr("Scattered light"), " %",
+                tr("Share of the direct light that the lens scatters about its image. Dust and "
+                   "age decide it, not the prescription."),
                 0.0, 100.0, 0.5, 0.0, [](const Scene& s) { return 100.0 * s.veil.spread.share; },
                 [](Scene& s, double v) { s.veil.spread.share = 0.01 * v; }});
-    add_number(*form, {"exponent", "Falls as r^−", "", "Power of the distance far from the image.",
-                       least_glare_exponent, most_glare_exponent, 0.1, GlareSpread{}.exponent,
-                       [](const Scene& s) { return s.veil.spread.exponent; },
-                       [](Scene& s, double v) { s.veil.spread.exponent = v; }});
     add_number(*form,
-               {"core", "Core", "°", "Where the power law begins.", 1e-3, largest_light_deg, 0.05,
-                GlareSpread{}.core_deg, [](const Scene& s) { return s.veil.spread.core_deg; },
+               {"exponent", tr("Falls as r^−"), "", tr("Power of the distance far from the image."),
+                least_glare_exponent, most_glare_exponent, 0.1, GlareSpread{}.exponent,
+                [](const Scene& s) { return s.veil.spread.exponent; },
+                [](Scene& s, double v) { s.veil.spread.exponent = v; }});
+    add_number(*form,
+               {"core", tr("Core"), "°", tr("Where the power law begins."), 1e-3, largest_light_deg,
+                0.05, GlareSpread{}.core_deg, [](const Scene& s) { return s.veil.spread.core_deg; },
                 [](Scene& s, double v) { s.veil.spread.core_deg = v; }});
 }
 
 void LightPanel::build_artistic(QVBoxLayout& column) {
-    QFormLayout* form = add_section(column, "Artistic");
+    QFormLayout* form = add_section(column, tr("Artistic"));
+    add_number(*form, {"exaggeration", tr("All ghosts"), " EV",
+                       tr("Stops on top of what is physical."), -most_ev, most_ev, 0.5, 0.0,
+                       [](const Scene& s) { return s.artistic.exaggeration_ev; },
+                       [](Scene& s, double v) { s.artistic.exaggeration_ev = v; }});
+    add_number(
+        *form,
+        {"jitter", tr("Jitter"), " mm", tr("Every ghost moved by a normal deviate of this size."),
+         0.0, most_offset_mm, 0.1, 0.0, [](const Scene& s) { return s.artistic.jitter_mm; },
+         [](Scene& s, double v) { s.artistic.jitter_mm = v; }});
     add_number(*form,
-               {"exaggeration", "All ghosts", " EV", "Stops on top of what is physical.", -most_ev,
-                most_ev, 0.5, 0.0, [](const Scene& s) { return s.artistic.exaggeration_ev; },
-                [](Scene& s, double v) { s.artistic.exaggeration_ev = v; }});
-    add_number(*form,
-               {"jitter", "Jitter", " mm", "Every ghost moved by a normal deviate of this size.",
-                0.0, most_offset_mm, 0.1, 0.0, [](const Scene& s) { return s.artistic.jitter_mm; },
-                [](Scene& s, double v) { s.artistic.jitter_mm = v; }});
-    add_number(*form, {"seed", "Seed", "", "Another seed, another jitter.", 0.0, 4294967295.0, 1.0,
-                       1.0, [](const Scene& s) { return static_cast<double>(s.artistic.seed); },
-                       [](Scene& s, double v) {
-                           s.artistic.seed = static_cast<std::uint32_t>(std::llround(v));
-                       }});
+               {"seed", tr("Seed"), "", tr("Another seed, another jitter."), 0.0, 4294967295.0, 1.0,
+                1.0, [](const Scene& s) { return static_cast<double>(s.artistic.seed); },
+                [](Scene& s, double v) {
+                    s.artistic.seed = static_cast<std::uint32_t>(std::llround(v));
+                }});
     ghost_rows_ = new QWidget;
     auto* own = new QVBoxLayout(ghost_rows_);
     own->setContentsMargins(0, 0, 0, 0);
-    QFormLayout* ghost = add_section(*own, "Chosen ghosts");
-    ghost_on_ = quiet_button("drawn", "Draw the ghosts that are chosen in the table", true);
-    ghost->addRow(dim_label("Picture"), with_reset(ghost_on_, new QWidget));
+    QFormLayout* ghost = add_section(*own, tr("Chosen ghosts"));
+    ghost_on_ = quiet_button(tr("drawn"), tr("Draw the ghosts that are chosen in the table"), true);
+    ghost->addRow(dim_label(tr("Picture")), with_reset(ghost_on_, new QWidget));
     connect(ghost_on_, &QToolButton::clicked, this, [this](bool on) {
         Scene scene = document_.scene();
         change_style(scene, [on](GhostStyle& of) { of.on = on; });
-        document_.edit_scene(scene, "switch ghosts");
+        document_.edit_scene(scene, tr("switch ghosts"));
     });
-    const auto add = [&](const char* id, const char* label, const char* unit, double low,
+    const auto add = [&](const char* id, const QString& label, const char* unit, double low,
                          double high, double step, double normal,
                          std::function<double&(GhostStyle&)> part) {
-        add_number(*ghost, {id, label, unit, "Of the ghosts that are chosen in the table.", low,
+        add_number(*ghost, {id, label, unit, tr("Of the ghosts that are chosen in the table."), low,
                             high, step, normal,
                             [this, part, normal](const Scene& s) {
                                 const GhostStyle* found = style(s);
@@ -331,29 +339,29 @@ void LightPanel::build_artistic(QVBoxLayout& column) {
                                 change_style(s, [&](GhostStyle& of) { part(of) = v; });
                             }});
     };
-    add("ghost_gain", "Gain", " EV", -most_ev, most_ev, 0.5, 0.0,
+    add("ghost_gain", tr("Gain"), " EV", -most_ev, most_ev, 0.5, 0.0,
         [](GhostStyle& of) -> double& { return of.gain_ev; });
-    add("ghost_red", "Tint, red", " ×", 0.0, most_tint, 0.1, 1.0,
+    add("ghost_red", tr("Tint, red"), " ×", 0.0, most_tint, 0.1, 1.0,
         [](GhostStyle& of) -> double& { return of.tint[0]; });
-    add("ghost_green", "Tint, green", " ×", 0.0, most_tint, 0.1, 1.0,
+    add("ghost_green", tr("Tint, green"), " ×", 0.0, most_tint, 0.1, 1.0,
         [](GhostStyle& of) -> double& { return of.tint[1]; });
-    add("ghost_blue", "Tint, blue", " ×", 0.0, most_tint, 0.1, 1.0,
+    add("ghost_blue", tr("Tint, blue"), " ×", 0.0, most_tint, 0.1, 1.0,
         [](GhostStyle& of) -> double& { return of.tint[2]; });
-    add("ghost_x", "Offset, x", " mm", -most_offset_mm, most_offset_mm, 0.1, 0.0,
+    add("ghost_x", tr("Offset, x"), " mm", -most_offset_mm, most_offset_mm, 0.1, 0.0,
         [](GhostStyle& of) -> double& { return of.offset_x_mm; });
-    add("ghost_y", "Offset, y", " mm", -most_offset_mm, most_offset_mm, 0.1, 0.0,
+    add("ghost_y", tr("Offset, y"), " mm", -most_offset_mm, most_offset_mm, 0.1, 0.0,
         [](GhostStyle& of) -> double& { return of.offset_y_mm; });
     column.addWidget(ghost_rows_);
     auto* buttons = new QHBoxLayout;
     buttons->setContentsMargins(8, 8, 8, 0);
-    neutral_ = quiet_button("↺ All neutral", "Take back every artistic change", false);
+    neutral_ = quiet_button(tr("↺ All neutral"), tr("Take back every artistic change"), false);
     buttons->addWidget(neutral_);
     buttons->addStretch(1);
     column.addLayout(buttons);
     connect(neutral_, &QToolButton::clicked, this, [this] {
         Scene scene = document_.scene();
         scene.artistic = {};
-        document_.edit_scene(scene, "take back artistic changes");
+        document_.edit_scene(scene, tr("take back artistic changes"));
     });
 }
 
@@ -401,14 +409,14 @@ void LightPanel::add_light() {
         std::clamp(light.direction.field_deg - apart_deg, -most_field_deg, most_field_deg);
     scene.lights.push_back(light);
     scene.active_light = scene.lights.size() - 1;
-    document_.edit_scene(scene, "add a light");
+    document_.edit_scene(scene, tr("add a light"));
 }
 
 void LightPanel::remove_light() {
     Scene scene = document_.scene();
     scene.lights.erase(scene.lights.begin() + static_cast<std::ptrdiff_t>(scene.active_light));
     scene.active_light = std::min(scene.active_light, scene.lights.size() - 1);
-    document_.edit_scene(scene, "remove a light");
+    document_.edit_scene(scene, tr("remove a light"));
 }
 
 void LightPanel::follow_document() {
@@ -447,7 +455,7 @@ void LightPanel::follow_document() {
     ghost_rows_->setEnabled(any);
     const GhostStyle* of = style(scene);
     ghost_on_->setChecked(of == nullptr || of->on);
-    ghost_rows_->setToolTip(any ? QString() : "Choose ghosts in the table first");
+    ghost_rows_->setToolTip(any ? QString() : tr("Choose ghosts in the table first"));
     neutral_->setEnabled(!(scene.artistic == Artistic{}));
 }
 

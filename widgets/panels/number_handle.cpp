@@ -15,6 +15,7 @@
 #include "widgets/models/prescription_model.h"
 #include "widgets/number_text.h"
 #include "widgets/panels/scrub.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -53,18 +54,18 @@ NumberHandle::NumberHandle(PrescriptionModel& model, QWidget* parent)
     row->setContentsMargins(12, 4, 12, 4);
     row->setSpacing(8);
     name_->setCursor(Qt::SizeHorCursor);
-    name_->setToolTip("Drag sideways to change the number; with Shift finely");
+    name_->setToolTip(tr("Drag sideways to change the number; with Shift finely"));
     slider_->setRange(-slider_end, slider_end);
     slider_->setToolTip(
-        "Drag to change the number of the cell in hand: the flare follows. It springs back to\n"
-        "the middle, and the drag is one step of the history. Arrow keys go by a hundredth.");
-    slider_->setAccessibleName("Number of the cell in hand");
+        tr("Drag to change the number of the cell in hand: the flare follows. It springs back to\n"
+           "the middle, and the drag is one step of the history. Arrow keys go by a hundredth."));
+    slider_->setAccessibleName(tr("Number of the cell in hand"));
     slider_->setSingleStep(slider_end / 100);
     slider_->setPageStep(slider_end / 10);
-    editor_->setFixedWidth(104);
+    set_line_width(*editor_, 104);
     editor_->setAlignment(Qt::AlignRight);
-    editor_->setAccessibleName("Value of the cell in hand");
-    choice_->setAccessibleName("Which number of the cell");
+    editor_->setAccessibleName(tr("Value of the cell in hand"));
+    choice_->setAccessibleName(tr("Which number of the cell"));
     unit_->setForegroundRole(QPalette::PlaceholderText);
     unit_->setMinimumWidth(44);
     row->addWidget(name_);
@@ -142,15 +143,15 @@ void NumberHandle::refresh() {
 
 void NumberHandle::show_value() {
     if (numbers_.empty()) {
-        name_->setText(cell_.isValid() ? "No number in this cell" : "No cell in hand");
+        name_->setText(cell_.isValid() ? tr("No number in this cell") : tr("No cell in hand"));
         editor_->clear();
         unit_->clear();
         return;
     }
     const CellNumber& number = numbers_[std::min(which(), numbers_.size() - 1)];
     const QString surface = QString::number(cell_.row() + 1);
-    name_->setText(numbers_.size() > 1 ? "Surface " + surface
-                                       : number.name + " of surface " + surface);
+    name_->setText(numbers_.size() > 1 ? tr("Surface %1").arg(surface)
+                                       : tr("%1 of surface %2").arg(number.name, surface));
     if (!(editor_->hasFocus() && editor_->isModified())) {
         editor_->setText(shortest(number.value));
     }
@@ -185,7 +186,7 @@ void NumberHandle::take_entry() {
     editor_->setModified(false);
     const std::size_t at = std::min(which(), numbers_.size() - 1);
     try {
-        const double value = read_number(editor_->text(), "a number", unit_of(numbers_[at]));
+        const double value = read_number(editor_->text(), tr("a number"), unit_of(numbers_[at]));
         model_.set_number(cell_, at, value, ++drag_);
     } catch (const Error& error) {
         Q_EMIT model_.refused(cell_, error.what());

@@ -2,10 +2,12 @@
 
 #include <QHeaderView>
 #include <QTableView>
+#include <QTreeView>
 
 #include <algorithm>
 
 #include "widgets/panels/table_delegate.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -19,25 +21,57 @@ QTableView* plain_table(QAbstractItemModel* model, QAbstractItemDelegate* delega
     table->setWordWrap(false);
     table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     table->verticalHeader()->hide();
-    table->verticalHeader()->setDefaultSectionSize(table_row_height);
-    table->verticalHeader()->setMinimumSectionSize(table_row_height);
+    follow_text_scale(*table, [table] {
+        table->verticalHeader()->setMinimumSectionSize(with_text(table_row_height));
+        table->verticalHeader()->setDefaultSectionSize(with_text(table_row_height));
+    });
     table->horizontalHeader()->setHighlightSections(false);
     table->horizontalHeader()->setMinimumSectionSize(28);
     return table;
 }
 
-void fit_columns(QTableView& table) {
-    // The header's own size hint keeps room for a sort mark that is not shown.
+namespace {
+
+/// The least width of a column; the header's own size hint keeps room for a sort mark that is not
+/// shown. `view` as its base class, where the size hint is public.
+int fitted_width(const QAbstractItemView& view, int column) {
     constexpr int header_padding = 14;
     constexpr int first_padding = 20;
-    const QAbstractItemModel* model = table.model();
-    const QAbstractItemView& cells = table;  // where the size hint is public
-    for (int column = 0; column < model->columnCount(); ++column) {
-        const QString header = model->headerData(column, Qt::Horizontal).toString();
-        const int header_width = table.fontMetrics().horizontalAdvance(header) +
-                                 (column == 0 ? first_padding : header_padding);
-        table.setColumnWidth(column, std::max(cells.sizeHintForColumn(column), header_width));
+    const QString header = view.model()->headerData(column, Qt::Horizontal).toString();
+    const int header_width = view.fontMetrics().horizontalAdvance(header) +
+                             (column == 0 ? first_padding : header_padding);
+    return std::max(view.sizeHintForColumn(column), header_width);
+}
+
+}  // namespace
+
+void fit_columns(QTableView& table) {
+    for (int column = 0; column < table.model()->columnCount(); ++column) {
+        table.setColumnWidth(column, fitted_width(table, column));
     }
+}
+
+void fit_columns(QTreeView& tree) {
+    for (int column = 0; column < tree.model()->columnCount(); ++column) {
+        const int branches = column == 0 ? 2 * tree.indentation() : 0;
+        tree.setColumnWidth(column, fitted_width(tree, column) + branches);
+    }
+}
+
+QTreeView* plain_tree(QAbstractItemModel* model, QAbstractItemDelegate* delegate) {
+    auto* tree = new QTreeView;
+    tree->setModel(model);
+    tree->setItemDelegate(delegate);
+    tree->setUniformRowHeights(true);
+    tree->setFrameShape(QFrame::NoFrame);
+    tree->setContextMenuPolicy(Qt::CustomContextMenu);
+    tree->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
+    tree->setIndentation(16);
+    tree->setExpandsOnDoubleClick(false);
+    tree->header()->setHighlightSections(false);
+    tree->header()->setMinimumSectionSize(28);
+    tree->header()->setStretchLastSection(false);
+    return tree;
 }
 
 }  // namespace ghostlight

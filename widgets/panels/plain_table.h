@@ -3,6 +3,7 @@
 class QAbstractItemModel;
 class QAbstractItemDelegate;
 class QTableView;
+class QTreeView;
 
 namespace ghostlight {
 
@@ -11,5 +12,9 @@ QTableView* plain_table(QAbstractItemModel* model, QAbstractItemDelegate* delega
 
 /// Each shown column as wide as its header or its widest cell, and no wider.
 void fit_columns(QTableView& table);
+void fit_columns(QTreeView& tree);
+
+/// Rows in groups, looking as plain_table() does.
+QTreeView* plain_tree(QAbstractItemModel* model, QAbstractItemDelegate* delegate);
 
 }  // namespace ghostlight

@@ -6,6 +6,7 @@
 #include <QTableWidget>
 #include <QVBoxLayout>
 
+#include <algorithm>
 #include <utility>
 
 #include "widgets/number_text.h"
@@ -24,7 +25,7 @@ QString bound_text(const PlanReport& plan, const Omission& each) {
         return QStringLiteral("–");
     }
     if (*each.bound_mm2 == 0.0) {
-        return QStringLiteral("nothing");
+        return PlanPage::tr("nothing");
     }
     return plan.flux_mm2 > 0.0 ? (each.proven ? QStringLiteral("≤ ") : QStringLiteral("≈ ")) +
                                      percent(*each.bound_mm2 / plan.flux_mm2)
@@ -122,29 +123,25 @@ void PlanPage::show_error(const MeasuredPlan& error) {
 }
 
 void PlanPage::show_sum() {
-    double proven_mm2 = 0.0, estimated_mm2 = 0.0;
-    int unknown = 0;
-    for (const Omission& each : report_->omissions) {
-        if (each.bound_mm2) {
-            (each.proven ? proven_mm2 : estimated_mm2) += *each.bound_mm2;
-        } else {
-            ++unknown;
-        }
-    }
     const auto share = [&](double mm2) {
         return percent(report_->flux_mm2 > 0.0 ? mm2 / report_->flux_mm2 : 0.0);
     };
-    QString text = tr("All of these: ");
-    if (estimated_mm2 == 0.0) {
-        text += tr("at most %1.").arg(share(proven_mm2));
+    const double proven_mm2 = report_->proven_mm2;
+    const double estimated_mm2 = report_->bound_mm2 - proven_mm2;
+    QString text;
+    if (!(estimated_mm2 > 0.0)) {
+        text = tr("All of these: at most %1.").arg(share(proven_mm2));
+    } else if (proven_mm2 > 0.0) {
+        text = tr("All of these: at most %1 proven, and about %2 estimated (good to a factor of "
+                  "two).")
+                   .arg(share(proven_mm2), share(estimated_mm2));
     } else {
-        text += proven_mm2 > 0.0 ? tr("at most %1 proven and about %2 estimated")
-                                       .arg(share(proven_mm2), share(estimated_mm2))
-                                 : tr("about %1, estimated").arg(share(estimated_mm2));
-        text += tr(" (good to a factor of two).");
+        text = tr("All of these: about %1, estimated (good to a factor of two).")
+                   .arg(share(estimated_mm2));
     }
-    if (unknown > 0) {
-        text += unknown == 1 ? tr(" One has no bound.") : tr(" %1 have no bound.").arg(unknown);
+    if (std::ranges::any_of(report_->omissions,
+                            [](const Omission& each) { return !each.bound_mm2; })) {
+        text += tr(" Rows with – are not in it.");
     }
     if (error_) {
         text += tr(" The true error is %1, by a reference whose two samplings differ by %2.")

@@ -1,5 +1,7 @@
 #include "widgets/panels/prescription_clipboard.h"
 
+#include <QCoreApplication>
+
 #include <QStringList>
 #include <QTableView>
 
@@ -11,6 +13,11 @@
 namespace ghostlight {
 
 namespace {
+
+/// Texts for people, as translators know them.
+struct PrescriptionClipboard {
+    Q_DECLARE_TR_FUNCTIONS(PrescriptionClipboard)
+};
 
 /// Columns that are shown, from the left.
 std::vector<int> shown_columns(const QTableView& table) {
@@ -106,7 +113,8 @@ QString copied_cells(const QTableView& table) {
 std::vector<CellText> pasted_cells(const QTableView& table, const QString& text) {
     const QModelIndexList chosen = chosen_cells(table);
     if (chosen.isEmpty()) {
-        throw Error("choose the cell where pasting begins");
+        throw Error(
+            PrescriptionClipboard::tr("choose the cell where pasting begins").toStdString());
     }
     const std::vector<QStringList> block = read_block(text);
     const auto is_editable = [](const QModelIndex& cell) {
@@ -125,12 +133,16 @@ std::vector<CellText> pasted_cells(const QTableView& table, const QString& text)
     const int left = std::ranges::min(chosen, {}, &QModelIndex::column).column();
     const int room = table.model()->rowCount() - top;
     if (block.size() > static_cast<std::size_t>(room)) {
-        throw Error({"more rows than there are surfaces",
-                     {},
-                     {},
-                     std::to_string(block.size()) + " rows",
-                     "at most " + std::to_string(room) + " from surface " +
-                         std::to_string(top + 1) + " on; insert surfaces first"});
+        throw Error(
+            {PrescriptionClipboard::tr("more rows than there are surfaces").toStdString(),
+             {},
+             {},
+             PrescriptionClipboard::tr("%n row(s)", nullptr, static_cast<int>(block.size()))
+                 .toStdString(),
+             PrescriptionClipboard::tr("at most %1 from surface %2 on; insert surfaces first")
+                 .arg(room)
+                 .arg(top + 1)
+                 .toStdString()});
     }
     const std::vector<int> columns = shown_columns(table);
     const auto first = std::ranges::lower_bound(columns, left);
@@ -138,12 +150,16 @@ std::vector<CellText> pasted_cells(const QTableView& table, const QString& text)
         auto column = first;
         for (const QString& value : block[k]) {
             if (column == columns.end()) {
-                throw Error({"more columns than the table shows",
-                             {},
-                             {},
-                             std::to_string(block[k].size()) + " columns",
-                             "at most " + std::to_string(columns.end() - first) +
-                                 " from the chosen one on"});
+                throw Error(
+                    {PrescriptionClipboard::tr("more columns than the table shows").toStdString(),
+                     {},
+                     {},
+                     PrescriptionClipboard::tr("%n column(s)", nullptr,
+                                               static_cast<int>(block[k].size()))
+                         .toStdString(),
+                     PrescriptionClipboard::tr("at most %1 from the chosen one on")
+                         .arg(columns.end() - first)
+                         .toStdString()});
             }
             const QModelIndex cell = table.model()->index(top + static_cast<int>(k), *column++);
             if (is_editable(cell)) {

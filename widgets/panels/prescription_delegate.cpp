@@ -18,6 +18,7 @@
 #include "core/io/glass_library.h"
 #include "widgets/models/prescription_model.h"
 #include "widgets/palette.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -146,8 +147,7 @@ void PrescriptionDelegate::paint(QPainter* painter, const QStyleOptionViewItem& 
         return;
     }
     painter->save();
-    QFont small = option.font;
-    small.setPixelSize(10);
+    QFont small = small_font();
     small.setWeight(QFont::DemiBold);
     painter->setFont(small);
     int x = index.data(Qt::TextAlignmentRole).toInt() & Qt::AlignRight

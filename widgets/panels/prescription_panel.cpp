@@ -43,7 +43,7 @@ PrescriptionPanel::PrescriptionPanel(Document& document, const Actions& actions,
     : QWidget(parent),
       document_(document),
       model_(new PrescriptionModel(document, this)),
-      header_(new PanelHeader("Prescription")),
+      header_(new PanelHeader(tr("Prescription"))),
       handle_(new NumberHandle(*model_)),
       scale_(new ScaleStrip(document)),
       pages_(new QStackedWidget) {
@@ -55,8 +55,8 @@ PrescriptionPanel::PrescriptionPanel(Document& document, const Actions& actions,
     reason_->setWordWrap(true);
     reason_->hide();
     auto* empty = new EmptyState(
-        "The lens's surfaces: radii, thicknesses, glasses and coatings, to be edited here.",
-        "Open a lens…");
+        tr("The lens's surfaces: radii, thicknesses, glasses and coatings, to be edited here."),
+        tr("Open a lens…"));
     connect(empty, &EmptyState::action_triggered, &actions["file.open"], &QAction::trigger);
     pages_->addWidget(empty);
     pages_->addWidget(table_);
@@ -169,7 +169,7 @@ void PrescriptionPanel::add_offers(QMenu& menu, const QModelIndex& index) {
     if (offers.isEmpty()) {
         return;
     }
-    menu.addAction("Nearest glasses:")->setEnabled(false);
+    menu.addAction(tr("Nearest glasses:"))->setEnabled(false);
     for (const QString& glass : offers) {
         menu.addAction(glass, this, [this, glass, cell = QPersistentModelIndex(index)] {
             model_->setData(cell, glass, Qt::EditRole);
@@ -211,11 +211,10 @@ void PrescriptionPanel::follow_document() {
     header_->set_warning(unknown > 0);
     if (unknown > 0) {
         header_->set_state(
-            unknown == 1 ? QStringLiteral("1 glass is not known: mend it here")
-                         : QStringLiteral("%1 glasses are not known: mend them here").arg(unknown));
+            tr("%n glass(es) not known: mend here", nullptr, static_cast<int>(unknown)));
         return;
     }
-    QString state = QStringLiteral("mm · R > 0: centre towards the sensor");
+    QString state = tr("mm · R > 0: centre towards the sensor");
     if (!document_.scene().configuration.empty()) {
         state.prepend(QString::fromStdString(document_.scene().configuration) + " · ");
     }

@@ -115,9 +115,7 @@ void PrescriptionPanel::copy_cells() {
 void PrescriptionPanel::paste_cells() {
     try {
         const auto cells = pasted_cells(*table_, QGuiApplication::clipboard()->text());
-        model_->set_texts(cells, cells.size() == 1
-                                     ? QStringLiteral("paste a cell")
-                                     : QStringLiteral("paste %1 cells").arg(cells.size()));
+        model_->set_texts(cells, tr("paste %n cell(s)", nullptr, static_cast<int>(cells.size())));
     } catch (const Error& error) {
         show_reason(error.what());
     }
@@ -130,8 +128,8 @@ void PrescriptionPanel::vary_cells() {
     });
     if (cells.isEmpty()) {
         show_reason(
-            "A fit varies radii, thicknesses, glasses, semi-diameters and coatings: choose "
-            "such cells.");
+            tr("A fit varies radii, thicknesses, glasses, semi-diameters and coatings: choose "
+               "such cells."));
         return;
     }
     const bool all_vary = std::ranges::all_of(cells, [](const QModelIndex& cell) {
@@ -151,7 +149,7 @@ void PrescriptionPanel::size_automatically() {
         }
     }
     if (!cells.empty()) {
-        model_->set_texts(cells, "size by the direct beam");
+        model_->set_texts(cells, tr("size by the direct beam"));
     }
 }
 

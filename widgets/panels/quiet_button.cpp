@@ -2,6 +2,7 @@
 
 #include <QToolButton>
 
+#include "widgets/text_scale.h"
 namespace ghostlight {
 
 QToolButton* quiet_button(const QString& text, const QString& tip, bool checkable) {
@@ -12,7 +13,7 @@ QToolButton* quiet_button(const QString& text, const QString& tip, bool checkabl
     button->setAccessibleName(text);
     button->setCheckable(checkable);
     button->setFocusPolicy(Qt::TabFocus);
-    button->setFixedHeight(28);
+    set_line_height(*button, 28);
     return button;
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "widgets/palette.h"
+#include "widgets/panels/mouse_stroke.h"
 
 namespace ghostlight {
 
@@ -48,12 +49,11 @@ void RowDrag::show_gap(int gap) {
 }
 
 bool RowDrag::eventFilter(QObject* watched, QEvent* event) {
-    const auto type = event->type();
-    if (type != QEvent::MouseButtonPress && type != QEvent::MouseMove &&
-        type != QEvent::MouseButtonRelease) {
+    const QMouseEvent* mouse = mouse_stroke(event);
+    if (mouse == nullptr) {
         return QObject::eventFilter(watched, event);
     }
-    const auto* mouse = static_cast<QMouseEvent*>(event);
+    const auto type = event->type();
     const QPoint at = mouse->position().toPoint();
     if (type == QEvent::MouseButtonPress) {
         const QModelIndex index = table_.indexAt(at);

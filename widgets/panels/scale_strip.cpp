@@ -14,6 +14,7 @@
 #include "widgets/document.h"
 #include "widgets/models/cell_text.h"
 #include "widgets/number_text.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -23,20 +24,20 @@ ScaleStrip::ScaleStrip(Document& document, QWidget* parent)
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(12, 4, 12, 4);
     row->setSpacing(8);
-    auto* scale = new QPushButton("Scale");
-    auto* cancel = new QPushButton("Cancel");
-    factor_->setAccessibleName("Scale by");
-    factor_->setToolTip("Every length times this factor; arithmetic is taken: =50/43.2");
-    efl_->setAccessibleName("Scale to a focal length in mm");
-    efl_->setToolTip("The focal length that the lens is to have, in mm");
+    auto* scale = new QPushButton(tr("Scale"));
+    auto* cancel = new QPushButton(tr("Cancel"));
+    factor_->setAccessibleName(tr("Scale by"));
+    factor_->setToolTip(tr("Every length times this factor; arithmetic is taken: =50/43.2"));
+    efl_->setAccessibleName(tr("Scale to a focal length in mm"));
+    efl_->setToolTip(tr("The focal length that the lens is to have, in mm"));
     for (QLineEdit* editor : {factor_, efl_}) {
-        editor->setFixedWidth(84);
+        set_line_width(*editor, 84);
         editor->setAlignment(Qt::AlignRight);
         connect(editor, &QLineEdit::returnPressed, this, &ScaleStrip::take);
     }
-    row->addWidget(new QLabel("Scale by"));
+    row->addWidget(new QLabel(tr("Scale by")));
     row->addWidget(factor_);
-    row->addWidget(new QLabel("to EFL"));
+    row->addWidget(new QLabel(tr("to EFL")));
     row->addWidget(efl_);
     row->addWidget(new QLabel("mm"));
     row->addStretch(1);
@@ -45,7 +46,7 @@ ScaleStrip::ScaleStrip(Document& document, QWidget* parent)
     hide();
     const auto reads = [](const QString& text, CellUnit unit) {
         try {
-            return read_positive(text, "a factor", unit);
+            return read_positive(text, tr("a factor"), unit);
         } catch (const Error&) {
             return 0.0;  // said when it is taken
         }
@@ -83,7 +84,7 @@ void ScaleStrip::ask() {
 void ScaleStrip::take() {
     try {
         if (wanted_ <= 0.0) {
-            wanted_ = read_positive(factor_->text(), "a factor above 0");
+            wanted_ = read_positive(factor_->text(), tr("a factor above 0"));
         }
         hide();
         Q_EMIT chosen(wanted_);

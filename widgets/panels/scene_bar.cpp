@@ -19,12 +19,13 @@
 #include "widgets/panels/scene_field.h"
 #include "widgets/prescription_edits.h"
 #include "widgets/tabular_text.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
 namespace {
 
-constexpr const char* as_listed = "as listed";
+QString as_listed() { return SceneBar::tr("as listed"); }
 constexpr double field_step_deg = 0.5;
 constexpr double azimuth_step_deg = 5.0;
 constexpr double most_field_deg = 89.9;
@@ -42,32 +43,35 @@ double wrapped_azimuth(double azimuth_deg) {
 }  // namespace
 
 SceneBar::SceneBar(Document& document, QWidget* parent)
-    : QToolBar("Scene", parent),
+    : QToolBar(tr("Scene"), parent),
       document_(document),
       title_(new TabularLabel),
-      configuration_(new ChoiceField("Configuration", "Zoom or focus position", false)),
-      f_number_(new NumberField("f/", "", "F-number, set by the stop. Wheel or arrows: a third.")),
-      field_(new NumberField("Field", "°", "Angle of the light from the axis. Wheel or arrows.")),
-      azimuth_(new NumberField("Azimuth", "°",
-                               "Direction of the light about the axis; 90° is the plane of the "
-                               "layout's drawing.")),
-      spectrum_(new ChoiceField("Spectrum",
-                                "Of the light: D65, A, E, LED-B3, sodium, a black body (5500 K), "
-                                "one wavelength (587.5618 nm) or a table (lamp.csv)",
-                                true)),
-      tolerance_(new NumberField("Table within", " %",
-                                 "Each flux of the ghost table is refined until its own error "
-                                 "estimate is below this share of it.")),
+      configuration_(new ChoiceField(tr("Configuration"), tr("Zoom or focus position"), false)),
+      f_number_(
+          new NumberField("f/", "", tr("F-number, set by the stop. Wheel or arrows: a third."))),
+      field_(new NumberField(tr("Field"), "°",
+                             tr("Angle of the light from the axis. Wheel or arrows."))),
+      azimuth_(new NumberField(tr("Azimuth"), "°",
+                               tr("Direction of the light about the axis; 90° is the plane of the "
+                                  "layout's drawing."))),
+      spectrum_(
+          new ChoiceField(tr("Spectrum"),
+                          tr("Of the light: D65, A, E, LED-B3, sodium, a black body (5500 K), "
+                             "one wavelength (587.5618 nm) or a table (lamp.csv)"),
+                          true)),
+      tolerance_(new NumberField(tr("Table within"), " %",
+                                 tr("Each flux of the ghost table is refined until its own error "
+                                    "estimate is below this share of it."))),
       flare_tolerance_(new NumberField(
-          "Flare within", " %",
-          "The flare at rest is drawn with the least work that keeps its error below this share "
-          "of its light (relative L1 over the sensor).")) {
+          tr("Flare within"), " %",
+          tr("The flare at rest is drawn with the least work that keeps its error below this share "
+             "of its light (relative L1 over the sensor)."))) {
     setObjectName("scene_bar");
     setMovable(false);
     setFloatable(false);
     toggleViewAction()->setVisible(false);
     auto* content = new QWidget;
-    content->setFixedHeight(40);  // also without fields
+    set_line_height(*content, 40);  // also without fields
     auto* row = new QHBoxLayout(content);
     row->setContentsMargins(12, 6, 12, 6);
     row->setSpacing(8);
@@ -108,30 +112,30 @@ void SceneBar::attempt(Field& field, const Edit& edit) {
 void SceneBar::set_field_deg(double field_deg) {
     Scene scene = document_.scene();
     scene.light().direction.field_deg = std::clamp(field_deg, -most_field_deg, most_field_deg);
-    document_.edit_scene(scene, "change field angle", "light");
+    document_.edit_scene(scene, tr("change field angle"), "light");
 }
 
 void SceneBar::set_azimuth_deg(double azimuth_deg) {
     Scene scene = document_.scene();
     scene.light().direction.azimuth_deg = wrapped_azimuth(azimuth_deg);
-    document_.edit_scene(scene, "change azimuth", "light");
+    document_.edit_scene(scene, tr("change azimuth"), "light");
 }
 
 void SceneBar::set_f_number(double f_number) {
     document_.edit_lens(with_f_number(document_.lens(), document_.scene().configuration, f_number),
-                        "change f-number", "f-number");
+                        tr("change f-number"), "f-number");
 }
 
 void SceneBar::connect_fields() {
     connect(field_, &NumberField::entered, this, [this](const QString& text) {
         attempt(*field_, [&] {
-            const double field_deg = read_number(text, "a field angle in degrees");
+            const double field_deg = read_number(text, tr("a field angle in degrees"));
             if (std::abs(field_deg) >= 90.0) {
-                throw Error({"the light must come from the front",
+                throw Error({tr("the light must come from the front").toStdString(),
                              {},
                              {},
                              text.toStdString(),
-                             "a field angle below 90 degrees"});
+                             tr("a field angle below 90 degrees").toStdString()});
             }
             set_field_deg(field_deg);
         });
@@ -140,13 +144,13 @@ void SceneBar::connect_fields() {
         set_field_deg(document_.scene().light().direction.field_deg + steps * field_step_deg);
     });
     connect(azimuth_, &NumberField::entered, this, [this](const QString& text) {
-        attempt(*azimuth_, [&] { set_azimuth_deg(read_number(text, "an angle in degrees")); });
+        attempt(*azimuth_, [&] { set_azimuth_deg(read_number(text, tr("an angle in degrees"))); });
     });
     connect(azimuth_, &NumberField::stepped, this, [this](int steps) {
         set_azimuth_deg(document_.scene().light().direction.azimuth_deg + steps * azimuth_step_deg);
     });
     connect(f_number_, &NumberField::entered, this, [this](const QString& text) {
-        attempt(*f_number_, [&] { set_f_number(read_positive(text, "an f-number above 0")); });
+        attempt(*f_number_, [&] { set_f_number(read_positive(text, tr("an f-number above 0"))); });
     });
     connect(f_number_, &NumberField::stepped, this, [this](int steps) {
         // A third of a stop, and no longer number than people write.
@@ -155,8 +159,8 @@ void SceneBar::connect_fields() {
             set_f_number(std::round(next * 100.0) / 100.0);
         }
     });
-    connect_tolerance(*tolerance_, &Scene::tolerance, "change table tolerance", "tolerance");
-    connect_tolerance(*flare_tolerance_, &Scene::flare_tolerance, "change flare tolerance",
+    connect_tolerance(*tolerance_, &Scene::tolerance, tr("change table tolerance"), "tolerance");
+    connect_tolerance(*flare_tolerance_, &Scene::flare_tolerance, tr("change flare tolerance"),
                       "flare tolerance");
     connect(spectrum_, &ChoiceField::entered, this, [this](const QString& text) {
         attempt(*spectrum_, [&] {
@@ -166,31 +170,34 @@ void SceneBar::connect_fields() {
             if (wanted != name(scene.light().spectrum)) {
                 scene.light().spectrum = spectrum_by_name(wanted);
             }
-            document_.edit_scene(scene, "change spectrum", "spectrum");
+            document_.edit_scene(scene, tr("change spectrum"), "spectrum");
         });
     });
     connect(configuration_, &ChoiceField::entered, this, [this](const QString& text) {
         Scene scene = document_.scene();
-        scene.configuration = text == as_listed ? std::string() : text.toStdString();
-        document_.edit_scene(scene, "change configuration", "configuration");
+        scene.configuration = text == as_listed() ? std::string() : text.toStdString();
+        document_.edit_scene(scene, tr("change configuration"), "configuration");
     });
 }
 
 void SceneBar::connect_tolerance(NumberField& field, double Scene::*share, const QString& what,
                                  const QString& key) {
-    connect(
-        &field, &NumberField::entered, this, [this, &field, share, what, key](const QString& text) {
-            attempt(field, [&] {
-                const double percent = read_positive(text, "per cent, from 0.001 to 50");
-                if (percent < 1e-3 || percent > 50.0) {
-                    throw Error(
-                        {"out of range", {}, {}, text.toStdString(), "per cent, from 0.001 to 50"});
-                }
-                Scene scene = document_.scene();
-                scene.*share = percent / 100.0;
-                document_.edit_scene(scene, what, key);
+    connect(&field, &NumberField::entered, this,
+            [this, &field, share, what, key](const QString& text) {
+                attempt(field, [&] {
+                    const double percent = read_positive(text, tr("per cent, from 0.001 to 50"));
+                    if (percent < 1e-3 || percent > 50.0) {
+                        throw Error({tr("out of range").toStdString(),
+                                     {},
+                                     {},
+                                     text.toStdString(),
+                                     tr("per cent, from 0.001 to 50").toStdString()});
+                    }
+                    Scene scene = document_.scene();
+                    scene.*share = percent / 100.0;
+                    document_.edit_scene(scene, what, key);
+                });
             });
-        });
 }
 
 void SceneBar::follow_document() {
@@ -208,13 +215,13 @@ void SceneBar::follow_document() {
         return;
     }
     const Scene& scene = document_.scene();
-    QStringList names = {as_listed};
+    QStringList names = {as_listed()};
     for (const Configuration& configuration : configurations) {
         names << QString::fromStdString(configuration.name);
     }
     configuration_->set_choices(names);
     configuration_->set_text(
-        scene.configuration.empty() ? as_listed : QString::fromStdString(scene.configuration));
+        scene.configuration.empty() ? as_listed() : QString::fromStdString(scene.configuration));
     field_->set_text(angle_text(scene.light().direction.field_deg));
     azimuth_->set_text(angle_text(scene.light().direction.azimuth_deg));
     spectrum_->set_text(QString::fromStdString(name(scene.light().spectrum)));
@@ -230,7 +237,7 @@ void SceneBar::follow_document() {
 }
 
 void SceneBar::show_title() {
-    const QString title = document_.is_empty() ? QStringLiteral("No lens") : document_.title();
+    const QString title = document_.is_empty() ? tr("No lens") : document_.title();
     title_->set_text('*' + QString(title).remove('*') + '*');
     title_->setToolTip(title + (document_.lens().source.empty()
                                     ? QString()

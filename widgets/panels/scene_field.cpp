@@ -13,6 +13,7 @@
 
 #include "widgets/panels/scrub.h"
 #include "widgets/tabular_text.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -35,7 +36,7 @@ constexpr double step_px = 6.0;
 QHBoxLayout* field_row(QFrame& frame, QLabel* text, const QString& tip) {
     frame.setProperty("field", true);
     frame.setToolTip(tip);
-    frame.setFixedHeight(28);
+    set_line_height(frame, 28);
     frame.setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
     auto* row = new QHBoxLayout(&frame);
     row->setContentsMargins(8, 0, 8, 0);
@@ -53,7 +54,7 @@ NumberField::NumberField(const QString& label, const QString& unit, const QStrin
     auto* name = new QLabel(label);
     name->setCursor(Qt::SizeHorCursor);
     QHBoxLayout* row = field_row(
-        *this, name, tip.isEmpty() ? tip : tip + "\nDrag its name sideways to change it.");
+        *this, name, tip.isEmpty() ? tip : tip + tr("\nDrag its name sideways to change it."));
     auto* scrub = new Scrub(*name, Qt::LeftButton);
     connect(scrub, &Scrub::begun, this, [this] { scrubbed_ = 0; });
     connect(scrub, &Scrub::moved, this, [this](double px) {

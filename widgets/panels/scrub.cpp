@@ -6,6 +6,8 @@
 
 #include <cstdlib>
 
+#include "widgets/panels/mouse_stroke.h"
+
 namespace ghostlight {
 
 Scrub::Scrub(QWidget& on, Qt::MouseButton button) : QObject(&on), button_(button) {
@@ -14,12 +16,11 @@ Scrub::Scrub(QWidget& on, Qt::MouseButton button) : QObject(&on), button_(button
 
 bool Scrub::eventFilter(QObject* watched, QEvent* event) {
     constexpr double slow = 0.1;
-    const auto type = event->type();
-    if (type != QEvent::MouseButtonPress && type != QEvent::MouseMove &&
-        type != QEvent::MouseButtonRelease) {
+    const QMouseEvent* mouse = mouse_stroke(event);
+    if (mouse == nullptr) {
         return QObject::eventFilter(watched, event);
     }
-    const auto* mouse = static_cast<QMouseEvent*>(event);
+    const auto type = event->type();
     const QPoint at = mouse->position().toPoint();
     if (type == QEvent::MouseButtonPress && mouse->button() == button_) {
         pressed_ = true;

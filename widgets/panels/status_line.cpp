@@ -41,7 +41,10 @@ StatusLine::StatusLine(Document& document, QWidget* parent)
     row->addStretch();
     row->addWidget(engine_);
     row->addWidget(saved_);
-    timing_->setToolTip("From the last change to its first picture on screen");
+    timing_->setToolTip(tr(
+        "From the last change to its first picture on screen: finding where ghosts enter and what "
+        "may be\n"
+        "left out, tracing, rasterising, adding up, bringing to the screen; the rest is waiting"));
     show_engine({});
     connect(&document_, &Document::changed, this, &StatusLine::follow_document);
     connect(&document_, &Document::opened, this, [this] {
@@ -57,25 +60,27 @@ StatusLine::StatusLine(Document& document, QWidget* parent)
 void StatusLine::show_table(const GhostTable& table) {
     const auto refined = std::count_if(table.ghosts.begin(), table.ghosts.end(),
                                        [](const GhostRow& row) { return row.converged; });
-    QString text = QStringLiteral("*%1 ghosts* · %2 rays · %3 s")
-                       .arg(table.ghosts.size())
-                       .arg(grouped(table.rays), significant(table.seconds, 2));
+    QString text =
+        tr("*%n ghost(s)* · %1 rays · %2 s", nullptr, static_cast<int>(table.ghosts.size()))
+            .arg(grouped(table.rays), significant(table.seconds, 2));
     const auto open = static_cast<std::ptrdiff_t>(table.ghosts.size()) - refined;
-    text += open == 0 ? QStringLiteral(" · all within %1 %")
-                            .arg(shortest(document_.scene().tolerance * 100.0))
-                      : QStringLiteral(" · %1 above the tolerance").arg(open);
+    text += open == 0 ? tr(" · all within %1 %").arg(shortest(document_.scene().tolerance * 100.0))
+                      : tr(" · %1 above the tolerance").arg(open);
     table_->set_text(text);
 }
 
 void StatusLine::show_progress(double share) {
-    table_->set_text(QStringLiteral("ghost table *%1 %*").arg(qRound(share * 100.0)));
+    table_->set_text(tr("ghost table *%1 %*").arg(qRound(share * 100.0)));
 }
 
 void StatusLine::show_picture(const FlarePicture& picture, double upload_ms) {
     if (picture.is_first_look) {
-        picture_->set_text("first look, *paraxial*");
+        const FlarePlan& plan = picture.image->plan;
+        picture_->set_text(tr("first look, off by about *%1 %*")
+                               .arg(significant(100.0 * plan.estimated_error(), 1)));
         picture_->setToolTip(
-            "Ghosts to first order, to see something at once; how far off they are is not known");
+            tr("Each ghost from a few rays about its own centre ray, to see something at once. The "
+               "error is estimated from those rays; light that enters elsewhere is not in it."));
     } else {
         show_plan(picture.image->plan);
     }
@@ -87,29 +92,43 @@ void StatusLine::show_picture(const FlarePicture& picture, double upload_ms) {
                                 std::chrono::steady_clock::now() - picture.changed_at)
                                 .count();
     const FlareTimes& times = picture.image->times;
-    timing_->set_text(
-        QStringLiteral("*%1 ms* trace %2 · raster %3 · show %4")
-            .arg(milliseconds(total_ms), milliseconds(times.bounds_ms + times.trace_ms),
-                 milliseconds(times.raster_ms + times.composite_ms), milliseconds(upload_ms)));
+    // What took no time worth telling is not told.
+    constexpr double least_ms = 0.05;
+    QStringList parts;
+    const auto add = [&](const QString& what, double ms) {
+        if (ms >= least_ms) {
+            parts << what.arg(milliseconds(ms));
+        }
+    };
+    add(tr("bounds %1"), times.bounds_ms);
+    add(tr("trace %1"), times.trace_ms);
+    add(tr("raster %1"), times.raster_ms);
+    add(tr("ringing %1"), times.ringing_ms);
+    add(tr("compose %1"), times.composite_ms);
+    add(tr("show %1"), upload_ms);
+    timing_->set_text(tr("*%1 ms* ").arg(milliseconds(total_ms)) + parts.join(" · "));
 }
 
 void StatusLine::show_plan(const FlarePlan& plan) {
-    const std::size_t drawn = plan.count(GhostFate::drawn);
-    picture_->set_text(QStringLiteral("flare within *%1 %* · %2 of %3 ghosts drawn")
-                           .arg(significant(100.0 * plan.estimated_error(), 2))
-                           .arg(drawn)
-                           .arg(plan.ghosts.size()) +
-                       (plan.left_out_mm2 > 0.0
-                            ? QStringLiteral(" · left out ≤ %1 %")
-                                  .arg(significant(100.0 * plan.left_out_share(), 2))
-                            : QString()));
+    QString text = tr("flare within *%1 %* · %2 of %3 ghosts drawn")
+                       .arg(significant(100.0 * plan.estimated_error(), 2))
+                       .arg(plan.count(GhostFate::drawn))
+                       .arg(plan.ghosts.size());
+    if (const std::size_t folded = plan.count(GhostFate::folded); folded > 0) {
+        text += tr(" · %n in the veil", nullptr, static_cast<int>(folded));
+    }
+    if (plan.left_out_mm2 > 0.0) {
+        text +=
+            tr(" · %n left out ≤ %1 %", nullptr, static_cast<int>(plan.count(GhostFate::left_out)))
+                .arg(significant(100.0 * plan.left_out_share(), 2));
+    }
+    picture_->set_text(text);
     picture_->setToolTip(
-        QStringLiteral(
-            "Estimated error of the ghost layer, L1 over its light on the sensor "
-            "(%1 % allowed).\n%2 ghosts land beside the sensor, through %3 no ray was "
-            "found to pass; %4 are left out, at most %5 % of the light.\nNot modelled: "
-            "light of four and more reflections, about %6 % of that of two (the surfaces "
-            "taken as plane).")
+        tr("Estimated error of the ghost layer, L1 over its light on the sensor "
+           "(%1 % allowed).\n%2 ghosts land beside the sensor, through %3 no ray was "
+           "found to pass; %4 are left out, at most %5 % of the light.\nNot modelled: "
+           "light of four and more reflections, about %6 % of that of two (the surfaces "
+           "taken as plane).")
             .arg(significant(100.0 * plan.tolerance, 2))
             .arg(plan.count(GhostFate::off_sensor))
             .arg(plan.count(GhostFate::nothing_passes))
@@ -120,46 +139,43 @@ void StatusLine::show_plan(const FlarePlan& plan) {
 
 void StatusLine::show_engine(const EngineState& state) {
     const unsigned threads = default_thread_count();
-    const QString cpu = QStringLiteral("CPU %1 · %2 thread%3")
-                            .arg(instruction_set_name())
-                            .arg(threads)
-                            .arg(threads == 1 ? "" : "s");
+    const QString cpu =
+        tr("CPU %1 · %n thread(s)", nullptr, static_cast<int>(threads)).arg(instruction_set_name());
     const bool gl = state.choice.engine == FlareEngine::gl;
-    engine_->set_text(gl ? "OpenGL · " + QString::fromStdString(state.gl_renderer) : cpu);
+    engine_->set_text(gl ? QStringLiteral("OpenGL · ") + QString::fromStdString(state.gl_renderer)
+                         : cpu);
     const QString reason = QString::fromStdString(state.choice.reason);
-    engine_->setToolTip(reason.isEmpty() ? QStringLiteral("What draws the flare")
-                                         : "What draws the flare. " + reason);
+    engine_->setToolTip(reason.isEmpty() ? tr("What draws the flare")
+                                         : tr("What draws the flare. %1").arg(reason));
     if (state.gave_up) {
-        show_message(QStringLiteral("OpenGL gave up, the CPU goes on: %1").arg(reason));
+        show_message(tr("OpenGL gave up, the CPU goes on: %1").arg(reason));
     }
 }
 
 void StatusLine::show_proving(double share) {
     const QString percent = QStringLiteral(" %1 %").arg(qRound(100.0 * share));
-    proof_->set_text((proven_.isEmpty() ? QStringLiteral("proving bounds")
-                                        : proven_ + QStringLiteral(" · proving on")) +
+    proof_->set_text((proven_.isEmpty() ? tr("proving bounds") : proven_ + tr(" · proving on")) +
                      percent);
     proof_->setToolTip(
-        "Whether the search for where ghosts enter has missed light; stops when "
-        "something changes");
+        tr("Whether the search for where ghosts enter has missed light; stops when "
+           "something changes"));
 }
 
 void StatusLine::show_proof(const std::shared_ptr<const PlanProof>& proof) {
     const double missed = proof->missed_share();
     const bool certified = proof->certified == proof->ghosts.size();
     // A bound above all of the light says nothing about what was missed.
-    proven_ = certified ? QStringLiteral("*bounds certified*")
-              : missed < 1.0
-                  ? QStringLiteral("missed light ≤ *%1 %*").arg(significant(100.0 * missed, 2))
-                  : QStringLiteral("bounds of %1 of %2 ghosts certified")
-                        .arg(proof->certified)
-                        .arg(proof->ghosts.size());
+    proven_ = certified      ? tr("*bounds certified*")
+              : missed < 1.0 ? tr("missed light ≤ *%1 %*").arg(significant(100.0 * missed, 2))
+                             : tr("bounds of %1 of %2 ghosts certified")
+                                   .arg(proof->certified)
+                                   .arg(proof->ghosts.size());
     proof_->set_text(proven_);
     proof_->setToolTip(
-        QStringLiteral("Proven by interval arithmetic in %1 s: outside of where ghosts are drawn, "
-                       "light on the sensor comes to at most %2 % of theirs.\nThe bound of %3 of "
-                       "%4 ghosts is within their share of 0.1 %; for the others more cells would "
-                       "be needed, which is no sign that anything was missed.")
+        tr("Proven by interval arithmetic in %1 s: outside of where ghosts are drawn, "
+           "light on the sensor comes to at most %2 % of theirs.\nThe bound of %3 of "
+           "%4 ghosts is within their share of 0.1 %; for the others more cells would "
+           "be needed, which is no sign that anything was missed.")
             .arg(significant(proof->seconds, 2), significant(100.0 * missed, 2))
             .arg(proof->certified)
             .arg(proof->ghosts.size()));
@@ -194,11 +210,11 @@ void StatusLine::show_saved() {
     if (document_.is_empty()) {
         saved_->set_text({});
     } else if (document_.is_modified()) {
-        saved_->set_text("*unsaved edits*");
+        saved_->set_text(tr("*unsaved edits*"));
     } else if (document_.saved_at().isValid()) {
-        saved_->set_text("saved " + document_.saved_at().toString("HH:mm"));
+        saved_->set_text(tr("saved %1").arg(document_.saved_at().toString("HH:mm")));
     } else {
-        saved_->set_text("as on file");
+        saved_->set_text(tr("as on file"));
     }
 }
 

@@ -3,6 +3,7 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QGridLayout>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QLineEdit>
 #include <QScrollArea>
@@ -10,10 +11,12 @@
 #include <QStyle>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <QWheelEvent>
 
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <memory>
 #include <utility>
 
 #include "core/error.h"
@@ -22,6 +25,7 @@
 #include "core/flare/tone_map.h"
 #include "core/io/stop_image_file.h"
 #include "core/optics/optical_system.h"
+#include "core/optics/paraxial.h"
 #include "core/units.h"
 #include "render/auto_exposure.h"
 #include "widgets/actions.h"
@@ -30,31 +34,46 @@
 #include "widgets/number_text.h"
 #include "widgets/panel_header.h"
 #include "widgets/panels/empty_state.h"
+#include "widgets/panels/scrub.h"
+#include "widgets/panels/stop_statistics.h"
+#include "widgets/prescription_edits.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
 namespace {
 
-constexpr const char* what_is_here =
-    "The stop's blades, an image over its opening, dust and scratches, and the starburst they "
-    "make.";
+QString what_is_here() {
+    return StopPanel::tr(
+        "The stop's blades, an image over its opening, dust and scratches, and the starburst they "
+        "make.");
+}
+constexpr int least_blades = 3;
 constexpr int picture_px = 168;
 /// The starburst is shown on this much of the sensor's width, about the axis.
 constexpr double shown_share = 1.0 / 6.0;
 constexpr double starburst_exposure_share = 0.004;
 
 /// A number within a range, or Error with the range.
-double number_within(const QString& text, double least, double most, const char* expected) {
+double number_within(const QString& text, double least, double most, const QString& expected) {
     const double value = read_number(text, expected);
     if (!(value >= least && value <= most)) {
-        throw Error({"out of range", {}, {}, text.toStdString(), expected});
+        throw Error({StopPanel::tr("out of range").toStdString(),
+                     {},
+                     {},
+                     text.toStdString(),
+                     expected.toStdString()});
     }
     return value;
 }
-int count_within(const QString& text, int least, int most, const char* expected) {
+int count_within(const QString& text, int least, int most, const QString& expected) {
     const double value = number_within(text, least, most, expected);
     if (value != std::floor(value)) {
-        throw Error({"not a whole number", {}, {}, text.toStdString(), expected});
+        throw Error({StopPanel::tr("not a whole number").toStdString(),
+                     {},
+                     {},
+                     text.toStdString(),
+                     expected.toStdString()});
     }
     return static_cast<int>(value);
 }
@@ -117,13 +136,14 @@ void set_refused(QLineEdit& editor, bool refused) {
 StopPanel::StopPanel(Document& document, const Actions& actions, QWidget* parent)
     : QWidget(parent),
       document_(document),
-      header_(new PanelHeader("Stop")),
-      empty_(new EmptyState(what_is_here, "Open a lens…")),
+      header_(new PanelHeader(tr("Stop"))),
+      empty_(new EmptyState(what_is_here(), tr("Open a lens…"))),
       pages_(new QStackedWidget),
-      opening_label_(picture_label("The opening, its right +x and its top +y")),
-      starburst_label_(picture_label("Light on the axis as the opening diffracts it, in the "
-                                     "middle sixth of the sensor's width")),
-      reason_label_(new QLabel) {
+      opening_label_(picture_label(tr("The opening, its right +x and its top +y"))),
+      starburst_label_(picture_label(tr("Light on the axis as the opening diffracts it, in the "
+                                        "middle sixth of the sensor's width"))),
+      reason_label_(new QLabel),
+      statistics_label_(dim_label({})) {
     auto* content = new QWidget;
     auto* column = new QVBoxLayout(content);
     column->setContentsMargins(12, 10, 12, 10);
@@ -138,6 +158,9 @@ StopPanel::StopPanel(Document& document, const Actions& actions, QWidget* parent
     reason_label_->setObjectName("stop_reason");
     reason_label_->hide();
     column->addWidget(reason_label_);
+    statistics_label_->setObjectName("stop_statistics");
+    statistics_label_->setWordWrap(true);
+    column->addWidget(statistics_label_);
     auto* grid = new QGridLayout;
     grid->setHorizontalSpacing(8);
     grid->setVerticalSpacing(4);
@@ -177,83 +200,189 @@ QToolButton& StopPanel::reset_button(const QString& name) const {
 }
 
 void StopPanel::add_row(QGridLayout& grid, const QString& name, const QString& label,
-                        const QString& unit, const QString& tip,
+                        const QString& unit, const QString& tip, Stride stride,
                         std::function<QString(const Stop&)> text,
                         std::function<void(Stop&, const QString&)> read,
                         std::function<void(Stop&)> clear) {
+    Row row{name,
+            nullptr,
+            nullptr,
+            stride,
+            [text = std::move(text)](const Prescription& lens) { return text(lens.stop); },
+            [read = std::move(read)](Prescription& lens, const QString& typed) {
+                read(lens.stop, typed);
+            },
+            [clear = std::move(clear)](Prescription& lens) { clear(lens.stop); }};
+    add_lens_row(grid, label, unit, tip, std::move(row));
+}
+
+void StopPanel::add_lens_row(QGridLayout& grid, const QString& label, const QString& unit,
+                             const QString& tip, Row row) {
     const int at = grid.rowCount();
+    const bool can_step = row.stride.by > 0.0;
+    const QString whole_tip =
+        can_step ? tip + tr("\nDrag its name sideways to change it; arrow keys go by steps.") : tip;
     auto* editor = new QLineEdit;
-    editor->setObjectName("stop_" + name);
+    editor->setObjectName("stop_" + row.name);
     editor->setAccessibleName(label);
-    editor->setToolTip(tip);
-    editor->setFixedWidth(96);
+    editor->setToolTip(whole_tip);
+    set_line_width(*editor, 96);
+    editor->installEventFilter(this);
     auto* title = new QLabel(label);
-    title->setToolTip(tip);
+    title->setToolTip(whole_tip);
     auto* reset = new QToolButton;
     reset->setText("↺");
     reset->setAutoRaise(true);
-    reset->setToolTip("Back to what it usually is");
-    reset->setAccessibleName("Reset " + label);
+    reset->setToolTip(tr("Back to what it usually is"));
+    reset->setAccessibleName(tr("Reset %1").arg(label));
     grid.addWidget(title, at, 0);
     grid.addWidget(editor, at, 1);
     grid.addWidget(dim_label(unit), at, 2);
     grid.addWidget(reset, at, 3);
     grid.setColumnStretch(2, 1);
-    rows_.push_back({name, editor, reset, std::move(text), std::move(read), std::move(clear)});
+    row.editor = editor;
+    row.reset = reset;
+    rows_.push_back(std::move(row));
     const std::size_t index = rows_.size() - 1;
     const auto finish = [this, index] {
-        const Row& row = rows_[index];
-        if (row.editor->isModified()) {
-            row.editor->setModified(false);
-            enter(row, row.editor->text());
+        const Row& each = rows_[index];
+        if (each.editor->isModified()) {
+            each.editor->setModified(false);
+            enter(each, each.editor->text());
         }
     };
     connect(editor, &QLineEdit::editingFinished, this, finish);
-    connect(reset, &QToolButton::clicked, this, [this, index] {
-        const Row& row = rows_[index];
-        change("reset the stop's " + row.name, {}, row.clear);
+    connect(reset, &QToolButton::clicked, this, [this, index, label] {
+        change(tr("reset the stop's %1").arg(label.toLower()), {}, rows_[index].clear);
     });
+    if (can_step) {
+        title->setCursor(Qt::SizeHorCursor);
+        auto* scrub = new Scrub(*title, Qt::LeftButton);
+        const auto done = std::make_shared<int>(0);
+        connect(scrub, &Scrub::begun, this, [done] { *done = 0; });
+        connect(scrub, &Scrub::moved, this, [this, index, done](double px) {
+            constexpr double step_px = 6.0;
+            const int steps = static_cast<int>(px / step_px) - *done;
+            if (steps != 0) {
+                *done += steps;
+                step(rows_[index], steps);
+            }
+        });
+    }
+}
+
+void StopPanel::step(const Row& row, int steps) {
+    const auto now = parse_number(row.text(document_.lens()));
+    if (document_.is_empty() || !now) {
+        return;
+    }
+    double next = *now + steps * row.stride.by;
+    if (row.stride.ratio != 1.0 && *now > 0.0) {
+        next = *now * std::pow(row.stride.ratio, steps);
+        next = parse_number(significant(next, 3)).value_or(next);  // as people write numbers
+    }
+    if (row.name == "blades" && next > 0.0 && next < least_blades) {
+        next = steps > 0 ? least_blades : 0.0;
+    }
+    try {
+        take(row, shortest(std::round(next * 1e4) / 1e4));
+    } catch (const Error&) {
+        // At the end of its range it stays where it is.
+    }
+}
+
+bool StopPanel::eventFilter(QObject* watched, QEvent* event) {
+    const auto row = std::ranges::find(rows_, watched, &Row::editor);
+    if (row == rows_.end() || !(row->stride.by > 0.0)) {
+        return QWidget::eventFilter(watched, event);
+    }
+    if (event->type() == QEvent::KeyPress) {
+        const int key = static_cast<QKeyEvent*>(event)->key();
+        if (key == Qt::Key_Up || key == Qt::Key_Down) {
+            row->editor->setModified(false);
+            step(*row, key == Qt::Key_Up ? 1 : -1);
+            return true;
+        }
+    } else if (event->type() == QEvent::Wheel && row->editor->hasFocus()) {
+        const int turned = static_cast<QWheelEvent*>(event)->angleDelta().y();
+        if (turned != 0) {
+            row->editor->setModified(false);
+            step(*row, turned > 0 ? 1 : -1);
+            return true;
+        }
+    }
+    return QWidget::eventFilter(watched, event);
+}
+
+void StopPanel::add_f_number_row(QGridLayout& grid) {
+    const auto present = [this](const Prescription&) {
+        try {
+            const double f = first_order(compile(document_.configured_lens(), d_line_nm)).f_number;
+            return shortest(std::round(f * 100.0) / 100.0);
+        } catch (const Error&) {
+            return QString();  // the banner says why
+        }
+    };
+    const auto read = [this](Prescription& lens, const QString& text) {
+        lens = with_f_number(std::move(lens), document_.scene().configuration,
+                             number_within(text, 0.01, 1e6, tr("an f-number above 0")));
+    };
+    const auto clear = [this](Prescription& lens) {
+        lens.stop.f_number.reset();
+        lens.stop.semi_diameter_mm.reset();
+        for (Configuration& each : lens.configurations) {
+            if (each.name == document_.scene().configuration) {
+                each.f_number.reset();
+            }
+        }
+    };
+    constexpr double third_of_a_stop = 1.122462048309373;  // 2^(1/6)
+    add_lens_row(grid, tr("f-number"), tr("reset: fully open"),
+                 tr("How far the stop is closed, in this configuration."),
+                 {"f_number", nullptr, nullptr, {0.1, third_of_a_stop}, present, read, clear});
 }
 
 void StopPanel::add_rows(QGridLayout& grid) {
     const Stop usual;
+    add_f_number_row(grid);
     add_row(
-        grid, "blades", "Blades", "0 round, 3–1000", "Blades of the stop; 0 is a round one.",
+        grid, "blades", tr("Blades"), tr("0 round, 3–1000"),
+        tr("Blades of the stop; 0 is a round one."), {1.0},
         [](const Stop& stop) { return QString::number(stop.blades); },
         [](Stop& stop, const QString& text) {
-            const int blades = count_within(text, 0, 1000, "0 (round), or 3 to 1000 blades");
+            const int blades = count_within(text, 0, 1000, tr("0 (round), or 3 to 1000 blades"));
             if (blades == 1 || blades == 2) {
-                throw Error({"not a usable number of blades",
+                throw Error({tr("not a usable number of blades").toStdString(),
                              {},
                              {},
                              text.toStdString(),
-                             "0 (round), or 3 to 1000"});
+                             tr("0 (round), or 3 to 1000").toStdString()});
             }
             stop.blades = blades;
         },
         [usual](Stop& stop) { stop.blades = usual.blades; });
     add_row(
-        grid, "curvature", "Roundness", "0 straight – 1 round",
-        "Curvature of the blades: 0 straight edges, 1 the full circle.",
+        grid, "curvature", tr("Roundness"), tr("0 straight – 1 round"),
+        tr("Curvature of the blades: 0 straight edges, 1 the full circle."), {0.05},
         [](const Stop& stop) { return shortest(stop.blade_curvature); },
         [](Stop& stop, const QString& text) {
-            stop.blade_curvature = number_within(text, 0.0, 1.0, "a roundness from 0 to 1");
+            stop.blade_curvature = number_within(text, 0.0, 1.0, tr("a roundness from 0 to 1"));
         },
         [usual](Stop& stop) { stop.blade_curvature = usual.blade_curvature; });
     add_row(
-        grid, "rotation", "Rotation", "°", "Turns blades and image, counter-clockwise.",
-        [](const Stop& stop) { return shortest(stop.rotation_deg); },
+        grid, "rotation", tr("Rotation"), "°", tr("Turns blades and image, counter-clockwise."),
+        {1.0}, [](const Stop& stop) { return shortest(stop.rotation_deg); },
         [](Stop& stop, const QString& text) {
-            stop.rotation_deg = read_number(text, "an angle in degrees");
+            stop.rotation_deg = read_number(text, tr("an angle in degrees"));
         },
         [usual](Stop& stop) { stop.rotation_deg = usual.rotation_deg; });
     add_image_row(grid);
-    const auto add_dirt = [&](const char* name, const char* label, const char* unit,
-                              const char* tip, double StopDirt::*value, double least, double most,
-                              const char* expected, double scale) {
+    const auto add_dirt = [&](const char* name, const QString& label, const QString& unit,
+                              const QString& tip, Stride stride, double StopDirt::*value,
+                              double least, double most, const QString& expected, double scale) {
         const double reset_to = StopDirt{}.*value;
         add_row(
-            grid, name, label, unit, tip,
+            grid, name, label, unit, tip, stride,
             [value, scale](const Stop& stop) {
                 return scale == 1.0 ? shortest(stop.dirt.*value) : percent(stop.dirt.*value);
             },
@@ -262,41 +391,46 @@ void StopPanel::add_rows(QGridLayout& grid) {
             },
             [=](Stop& stop) { stop.dirt.*value = reset_to; });
     };
-    add_dirt("dust", "Dust", "% of the stop, 0–50", "Share of the stop that opaque specks cover.",
-             &StopDirt::dust_coverage, 0.0, 50.0, "per cent, from 0 to 50", 100.0);
-    add_dirt("dust_smallest", "Specks from", "mm", "Diameter of the smallest speck.",
-             &StopDirt::dust_smallest_mm, 1e-4, 10.0, "a diameter in mm, 0.0001 to 10", 1.0);
-    add_dirt("dust_largest", "Specks to", "mm", "Diameter of the largest speck.",
-             &StopDirt::dust_largest_mm, 1e-4, 10.0, "a diameter in mm, 0.0001 to 10", 1.0);
+    const QString diameter = tr("a diameter in mm, 0.0001 to 10");
+    const QString width = tr("a width in mm, 0.0001 to 10");
+    constexpr Stride size{0.001, 1.1};  // mm
+    constexpr Stride share{0.1, 1.1};   // per cent
+    add_dirt("dust", tr("Dust"), tr("% of the stop, 0–50"),
+             tr("Share of the stop that opaque specks cover."), share, &StopDirt::dust_coverage,
+             0.0, 50.0, tr("per cent, from 0 to 50"), 100.0);
+    add_dirt("dust_smallest", tr("Specks from"), "mm", tr("Diameter of the smallest speck."), size,
+             &StopDirt::dust_smallest_mm, 1e-4, 10.0, diameter, 1.0);
+    add_dirt("dust_largest", tr("Specks to"), "mm", tr("Diameter of the largest speck."), size,
+             &StopDirt::dust_largest_mm, 1e-4, 10.0, diameter, 1.0);
     add_row(
-        grid, "scratches", "Scratches", "0–10000",
-        "How many, each a tenth to the whole of the stop's radius long.",
+        grid, "scratches", tr("Scratches"), "0–10000",
+        tr("How many, each a tenth to the whole of the stop's radius long."), {1.0},
         [](const Stop& stop) { return QString::number(stop.dirt.scratches); },
         [](Stop& stop, const QString& text) {
-            stop.dirt.scratches = count_within(text, 0, 10'000, "how many, 0 to 10000");
+            stop.dirt.scratches = count_within(text, 0, 10'000, tr("how many, 0 to 10000"));
         },
         [](Stop& stop) { stop.dirt.scratches = 0; });
-    add_dirt("scratch_thinnest", "Widths from", "mm", "Width of the thinnest scratch.",
-             &StopDirt::scratch_thinnest_mm, 1e-4, 10.0, "a width in mm, 0.0001 to 10", 1.0);
-    add_dirt("scratch_widest", "Widths to", "mm", "Width of the widest scratch.",
-             &StopDirt::scratch_widest_mm, 1e-4, 10.0, "a width in mm, 0.0001 to 10", 1.0);
-    add_dirt("fingerprint", "Fingerprint", "% that its ridges take, 0–100",
-             "One print; its ridges take this share of the light.", &StopDirt::fingerprint, 0.0,
-             100.0, "per cent, from 0 to 100", 100.0);
+    add_dirt("scratch_thinnest", tr("Widths from"), "mm", tr("Width of the thinnest scratch."),
+             size, &StopDirt::scratch_thinnest_mm, 1e-4, 10.0, width, 1.0);
+    add_dirt("scratch_widest", tr("Widths to"), "mm", tr("Width of the widest scratch."), size,
+             &StopDirt::scratch_widest_mm, 1e-4, 10.0, width, 1.0);
+    add_dirt("fingerprint", tr("Fingerprint"), tr("% that its ridges take, 0–100"),
+             tr("One print; its ridges take this share of the light."), share,
+             &StopDirt::fingerprint, 0.0, 100.0, tr("per cent, from 0 to 100"), 100.0);
     add_row(
-        grid, "seed", "Seed", "", "Another number scatters the same dirt otherwise.",
+        grid, "seed", tr("Seed"), "", tr("Another number scatters the same dirt otherwise."), {1.0},
         [](const Stop& stop) { return QString::number(stop.dirt.seed); },
         [](Stop& stop, const QString& text) {
             stop.dirt.seed =
-                count_within(text, 0, 1'000'000'000, "a whole number from 0 to 1000000000");
+                count_within(text, 0, 1'000'000'000, tr("a whole number from 0 to 1000000000"));
         },
         [usual](Stop& stop) { stop.dirt.seed = usual.dirt.seed; });
 }
 
 void StopPanel::add_image_row(QGridLayout& grid) {
     add_row(
-        grid, "image", "Image", "",
-        "An image over the opening, white where it is open. Nothing: the blades alone.",
+        grid, "image", tr("Image"), "",
+        tr("An image over the opening, white where it is open. Nothing: the blades alone."), {},
         [](const Stop& stop) {
             return stop.image ? QFileInfo(QString::fromStdString(stop.image->file)).fileName()
                               : QString();
@@ -310,13 +444,13 @@ void StopPanel::add_image_row(QGridLayout& grid) {
         },
         [](Stop& stop) { stop.image.reset(); });
     auto* choose = new QToolButton;
-    choose->setText("Choose…");
+    choose->setText(tr("Choose…"));
     choose->setObjectName("stop_choose_image");
     grid.addWidget(choose, grid.rowCount() - 1, 2, Qt::AlignLeft);
     connect(choose, &QToolButton::clicked, this, [this] {
         const QString file = QFileDialog::getOpenFileName(
-            this, "Image of the stop", {},
-            "Images (*.png *.tif *.tiff *.exr *.jpg *.jpeg *.bmp *.webp);;All files (*)");
+            this, tr("Image of the stop"), {},
+            tr("Images (*.png *.tif *.tiff *.exr *.jpg *.jpeg *.bmp *.webp);;All files (*)"));
         if (!file.isEmpty()) {
             take_image(file);
         }
@@ -331,23 +465,29 @@ bool StopPanel::take_image(const QString& file) {
 
 void StopPanel::enter(const Row& row, const QString& text) {
     try {
-        Prescription lens = document_.lens();
-        row.read(lens.stop, text);
-        validate(lens);
-        show_reason({});
-        set_refused(*row.editor, false);
-        document_.edit_lens(std::move(lens), "change the stop's " + row.name, "stop." + row.name);
-        follow_document();  // also where nothing changed: the text as it is written here
+        take(row, text);
     } catch (const Error& error) {
         set_refused(*row.editor, true);
         show_reason(QString::fromUtf8(error.what()));
     }
 }
 
-void StopPanel::change(const QString& what, const QString& field,
-                       const std::function<void(Stop&)>& edit) {
+void StopPanel::take(const Row& row, const QString& text) {
     Prescription lens = document_.lens();
-    edit(lens.stop);
+    row.read(lens, text);
+    validate(lens);
+    show_reason({});
+    set_refused(*row.editor, false);
+    document_.edit_lens(std::move(lens),
+                        tr("change the stop's %1").arg(row.editor->accessibleName().toLower()),
+                        "stop." + row.name);
+    follow_document();  // also where nothing changed: the text as it is written here
+}
+
+void StopPanel::change(const QString& what, const QString& field,
+                       const std::function<void(Prescription&)>& edit) {
+    Prescription lens = document_.lens();
+    edit(lens);
     show_reason({});
     document_.edit_lens(std::move(lens), what, field);
     follow_document();
@@ -359,16 +499,16 @@ void StopPanel::follow_document() {
         header_->set_state(QString());
         return;
     }
-    const Stop& stop = document_.lens().stop;
+    const Prescription& lens = document_.lens();
     for (const Row& row : rows_) {
         if (row.editor->hasFocus() && row.editor->isModified()) {
             continue;
         }
-        row.editor->setText(row.text(stop));
+        row.editor->setText(row.text(lens));
         set_refused(*row.editor, false);
-        Stop cleared = stop;
+        Prescription cleared = lens;
         row.clear(cleared);
-        row.reset->setEnabled(cleared != stop);
+        row.reset->setEnabled(cleared != lens);
     }
     delay_.start();
 }
@@ -390,22 +530,22 @@ void StopPanel::request() {
     } catch (const Error& error) {  // the configuration is not one of the lens's
         asked_ = {};
         ++serial_;
-        show_pictures({}, {}, {}, QString::fromUtf8(error.what()), serial_);
+        show_pictures({{}, {}, {}, {}, QString::fromUtf8(error.what())}, serial_);
     }
 }
 
 void StopPanel::work_on(const Request& request, const std::stop_token& stop) {
-    QImage opening, starburst;
-    QString state, reason;
+    Shown shown;
     try {
         const OpticalSystem system = compile(request.lens, d_line_nm);
-        opening = opening_picture(system, request.lens.stop.dirt);
+        shown.opening = opening_picture(system, request.lens.stop.dirt);
         const double share = clear_share(system.stop_mask, request.lens.stop.dirt);
-        state =
+        shown.state =
             QStringLiteral("⌀ %1 mm").arg(significant(2.0 * system.stop_mask.semi_diameter_mm, 4));
         if (share < 1.0) {
-            state += QStringLiteral(" · %1 % clear").arg(significant(100.0 * share, 4));
+            shown.state += tr(" · %1 % clear").arg(significant(100.0 * share, 4));
         }
+        shown.statistics = stop_statistics(request.lens.stop, system);
         StarburstRequest wanted;
         wanted.light = {0.0, 90.0};
         wanted.spectrum = request.spectrum;
@@ -417,32 +557,31 @@ void StopPanel::work_on(const Request& request, const std::stop_token& stop) {
         if (!image) {
             return;  // a newer one is on its way
         }
-        starburst = starburst_picture(*image);
+        shown.starburst = starburst_picture(*image);
     } catch (const std::exception& error) {
-        reason = QString::fromUtf8(error.what());
+        shown.reason = QString::fromUtf8(error.what());
     }
     QMetaObject::invokeMethod(
-        this,
-        [this, opening, starburst, state, reason, serial = request.serial] {
-            show_pictures(opening, starburst, state, reason, serial);
-        },
+        this, [this, shown, serial = request.serial] { show_pictures(shown, serial); },
         Qt::QueuedConnection);
 }
 
-void StopPanel::show_pictures(const QImage& opening, const QImage& starburst, const QString& state,
-                              const QString& reason, std::uint64_t serial) {
+void StopPanel::show_pictures(const Shown& shown, std::uint64_t serial) {
     if (serial != serial_) {
         return;
     }
     shown_serial_ = serial;
-    opening_ = opening;
-    starburst_ = starburst;
-    opening_label_->setPixmap(QPixmap::fromImage(opening));
-    starburst_label_->setPixmap(QPixmap::fromImage(starburst));
-    header_->set_state(state);
+    opening_ = shown.opening;
+    starburst_ = shown.starburst;
+    opening_label_->setPixmap(QPixmap::fromImage(opening_));
+    starburst_label_->setPixmap(QPixmap::fromImage(starburst_));
+    statistics_label_->setText(shown.statistics);
+    header_->set_state(shown.state);
     header_->set_dimmed(false);
-    show_reason(reason);
+    show_reason(shown.reason);
 }
+
+QString StopPanel::statistics() const { return statistics_label_->text(); }
 
 void StopPanel::show_reason(const QString& reason) {
     reason_ = reason;

@@ -21,6 +21,7 @@
 #include "widgets/panels/quiet_button.h"
 #include "widgets/panels/sweep_view.h"
 #include "widgets/selection.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -34,7 +35,7 @@ constexpr int most_points = 200;
 QFrame* framed_field(const QString& label, QWidget* control) {
     auto* frame = new QFrame;
     frame->setProperty("field", true);
-    frame->setFixedHeight(28);
+    set_line_height(*frame, 28);
     auto* row = new QHBoxLayout(frame);
     row->setContentsMargins(8, 0, 8, 0);
     row->setSpacing(6);
@@ -49,7 +50,7 @@ QLineEdit* number_edit(const char* name, int width) {
     auto* edit = new QLineEdit;
     edit->setObjectName(name);
     edit->setFrame(false);
-    edit->setFixedWidth(width);
+    set_line_width(*edit, width);
     return edit;
 }
 
@@ -59,15 +60,15 @@ SweepPanel::SweepPanel(Document& document, Selection& selection, QWidget* parent
     : QWidget(parent),
       document_(document),
       selection_(selection),
-      header_(new PanelHeader("Sweep")),
+      header_(new PanelHeader(tr("Sweep"))),
       parameter_(new QComboBox),
       from_(number_edit("sweep_from", 56)),
       to_(number_edit("sweep_to", 56)),
       count_(number_edit("sweep_count", 28)),
       quantity_(new QComboBox),
-      run_(quiet_button("Sweep", "Run the number through its range; again to stop", false)),
-      export_(
-          quiet_button("Export CSV…", "Every ghost at every value, with where it is worst", false)),
+      run_(quiet_button(tr("Sweep"), tr("Run the number through its range; again to stop"), false)),
+      export_(quiet_button(tr("Export CSV…"),
+                           tr("Every ghost at every value, with where it is worst"), false)),
       problem_(new QLabel),
       view_(new SweepView) {
     parameter_->setObjectName("sweep_parameter");
@@ -76,28 +77,28 @@ SweepPanel::SweepPanel(Document& document, Selection& selection, QWidget* parent
     parameter_->setMinimumWidth(110);
     parameter_->addItems({"field", "azimuth", "f-number", "position", "radius 1", "curvature 1",
                           "thickness 1", "semi-diameter 1", "coating 1"});
-    parameter_->setToolTip(
+    parameter_->setToolTip(tr(
         "What runs: field, azimuth, f-number, position (of the zoom, from 1), or radius N,\n"
         "curvature N, thickness N, semi-diameter N, coating N (a factor on its layers) of surface "
-        "N");
+        "N"));
     quantity_->setFrame(false);
-    quantity_->addItems({"flux", "flux on sensor", "peak"});
+    quantity_->addItems({tr("flux"), tr("flux on sensor"), tr("peak")});
     count_->setText("9");
     problem_->setObjectName("refusal");
     problem_->setWordWrap(true);
     problem_->hide();
     auto* strip = new QFrame;
     strip->setObjectName("layers_strip");
-    strip->setFixedHeight(40);
+    set_line_height(*strip, 40);
     auto* row = new QHBoxLayout(strip);
     row->setContentsMargins(12, 6, 12, 6);
     row->setSpacing(6);
     row->addWidget(framed_field({}, parameter_));
-    row->addWidget(framed_field("from", from_));
-    row->addWidget(framed_field("to", to_));
-    row->addWidget(framed_field("points", count_));
+    row->addWidget(framed_field(tr("from"), from_));
+    row->addWidget(framed_field(tr("to"), to_));
+    row->addWidget(framed_field(tr("points"), count_));
     row->addWidget(run_);
-    row->addWidget(framed_field("curves", quantity_));
+    row->addWidget(framed_field(tr("curves"), quantity_));
     row->addWidget(export_);
     row->addStretch(1);
     auto* column = new QVBoxLayout(this);
@@ -196,13 +197,13 @@ void SweepPanel::start() {
     bool is_whole = false;
     const int count = count_->text().toInt(&is_whole);
     if (!from || !to) {
-        show_problem(QStringLiteral("'%1' is no number: expected where the range %2")
-                         .arg(from ? to_->text() : from_->text(), from ? "ends" : "begins"));
+        show_problem(
+            from ? tr("'%1' is no number: expected where the range ends").arg(to_->text())
+                 : tr("'%1' is no number: expected where the range begins").arg(from_->text()));
         return;
     }
     if (!is_whole || count < 2 || count > most_points) {
-        show_problem(
-            QStringLiteral("'%1' points: expected 2 to %2").arg(count_->text()).arg(most_points));
+        show_problem(tr("'%1' points: expected 2 to %2").arg(count_->text()).arg(most_points));
         return;
     }
     try {
@@ -287,17 +288,18 @@ void SweepPanel::finish(std::uint64_t serial) {
 }
 
 void SweepPanel::show_state() {
-    run_->setText(running_ ? "Stop" : "Sweep");
+    run_->setText(running_ ? tr("Stop") : tr("Sweep"));
     run_->setEnabled(!document_.is_empty());
     export_->setEnabled(!points_.empty());
     QString state;
     if (running_) {
-        state = QStringLiteral("%1 of %2").arg(points_.size()).arg(wanted_);
+        state = tr("%1 of %2").arg(points_.size()).arg(wanted_);
     } else if (!points_.empty()) {
-        state = QStringLiteral("%1 · %2 points%3")
-                    .arg(QString::fromStdString(name(swept_)))
-                    .arg(points_.size())
-                    .arg(revision_ == document_.revision() ? "" : " · of an earlier state");
+        state =
+            tr("%1 · %2 points%3")
+                .arg(QString::fromStdString(name(swept_)))
+                .arg(points_.size())
+                .arg(revision_ == document_.revision() ? QString() : tr(" · of an earlier state"));
     }
     header_->set_state(state);
 }
@@ -311,10 +313,10 @@ void SweepPanel::go_to(double value) {
     } else if (swept_.kind == SweepParameter::Kind::f_number) {
         Prescription lens = document_.lens();
         lens.stop.f_number = value;
-        document_.edit_lens(lens, "set the f-number");
+        document_.edit_lens(lens, tr("set the f-number"));
         return;
     }
-    document_.edit_scene(scene, "go to a place of the sweep");
+    document_.edit_scene(scene, tr("go to a place of the sweep"));
 }
 
 QString SweepPanel::csv() const {
@@ -322,8 +324,8 @@ QString SweepPanel::csv() const {
 }
 
 void SweepPanel::export_csv() {
-    const QString file =
-        QFileDialog::getSaveFileName(window(), "Export the Sweep", "sweep.csv", "Tables (*.csv)");
+    const QString file = QFileDialog::getSaveFileName(window(), tr("Export the Sweep"), "sweep.csv",
+                                                      tr("Tables (*.csv)"));
     if (file.isEmpty()) {
         return;
     }

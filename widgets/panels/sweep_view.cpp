@@ -12,6 +12,7 @@
 #include "widgets/ghost_colors.h"
 #include "widgets/number_text.h"
 #include "widgets/palette.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -45,13 +46,13 @@ QImage toned(const FlareImage& image, double exposure_ev) {
 QString title_of(SweepQuantity quantity) {
     switch (quantity) {
         case SweepQuantity::on_sensor_flux:
-            return QStringLiteral("flux on the sensor, mm²");
+            return SweepView::tr("flux on the sensor, mm²");
         case SweepQuantity::peak:
-            return QStringLiteral("peak, E0");
+            return SweepView::tr("peak, E0");
         case SweepQuantity::flux:
             break;
     }
-    return QStringLiteral("flux, mm²");
+    return SweepView::tr("flux, mm²");
 }
 
 }  // namespace
@@ -147,9 +148,7 @@ void SweepView::paintEvent(QPaintEvent*) {
     painter.setRenderHint(QPainter::SmoothPixmapTransform);
     const Palette& colors = current_palette();
     painter.fillRect(rect(), colors.panel);
-    QFont small = painter.font();
-    small.setPixelSize(11);
-    painter.setFont(small);
+    painter.setFont(small_font());
     if (points_.empty()) {
         painter.setPen(colors.dim);
         painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap,

@@ -5,6 +5,7 @@
 
 #include "widgets/palette.h"
 #include "widgets/tabular_text.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -93,7 +94,7 @@ QSize TableDelegate::sizeHint(const QStyleOptionViewItem& option, const QModelIn
     if (bar_role_ >= 0 && index.data(bar_role_).isValid()) {
         width = bar_width;
     }
-    return {width, table_row_height};
+    return {width, with_text(table_row_height)};
 }
 
 }  // namespace ghostlight

@@ -21,6 +21,6 @@ class TableDelegate : public QStyledItemDelegate {
     int stale_role_;
 };
 
-inline constexpr int table_row_height = 26;
+inline constexpr int table_row_height = 26;  ///< at the usual size of letters
 
 }  // namespace ghostlight

@@ -125,6 +125,8 @@ FitSetup full_setup() {
     setup.loss_scale = 6.0;
     setup.left_out = "5-3";
     setup.only = "5-3,7-2";
+    setup.profiled = "center@1";
+    setup.bootstrap = 20;
     return setup;
 }
 
@@ -149,7 +151,8 @@ TEST(FitSetup, CommandNamesWhatIsNotUsual) {
          {"--photo /pictures/a.exr,/pictures/b.exr", "--light \"12,34;auto\"",
           "--photo-mask \"/pictures/mask.png,\"", "--mask-region \"1,2,3,4,5,6/brush:7:8,9;\"",
           "--crop \"1,2,300,200;\"", "--principal \"150.5,99;\"", "--rotation \"-1.5;0\"",
-          "--loss tukey", "--leave-out 5-3", "--use-ghosts 5-3,7-2"})
+          "--profile center@1", "--bootstrap 20", "--loss tukey", "--leave-out 5-3",
+          "--use-ghosts 5-3,7-2"})
         EXPECT_NE(all.find(part), std::string::npos) << part << " in " << all;
     FitSetup plain;
     plain.photos.emplace_back().file = "a.exr";

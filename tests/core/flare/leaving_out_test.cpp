@@ -94,7 +94,7 @@ TEST(LeavingOut, MomentsAreThoseOfTheTable) {
         const PlannedGhost planned = planner.probe(path).planned;
         const GhostRow& row = rows.at(name(path, lens.surfaces.size()));
         if (planned.fate == GhostFate::nothing_passes) continue;
-        const GhostMoments& moments = planned.moments;
+        const GhostSpot& moments = planned.spot;
         const double radius = std::sqrt(moments.xx_mm2 + moments.yy_mm2);
         EXPECT_NEAR(radius, row.rms_radius_mm, share * row.rms_radius_mm) << name(path, 99);
         EXPECT_NEAR(moments.x_mm, row.centroid_x_mm, share * row.rms_radius_mm);

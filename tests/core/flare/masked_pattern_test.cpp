@@ -63,6 +63,23 @@ TEST(MaskedPattern, TransformOfARasterIsThePolygonsClosedForm) {
     }
 }
 
+TEST(MaskedPattern, TwoRastersByOneTransformAreThoseByTwo) {
+    const StopMask mask = stop_of(6, 0.2);
+    StopDirt dirt;
+    dirt.dust_coverage = 0.05;
+    const MaskRaster coarse = mask_raster(mask, dirt, 64), fine = mask_raster(mask, dirt, 256);
+    const auto both = PowerGrid::of_two(coarse, fine, 512, 2);
+    const PowerGrid first(coarse, 512, 0.0, 1), second(fine, 512, 0.0, 1);
+    for (int j = -200; j <= 200; j += 23)
+        for (int i = -200; i <= 200; i += 17) {
+            // Rounding of single precision, of the largest value's amplitude.
+            EXPECT_NEAR(std::sqrt(both[0].at(i, j)), std::sqrt(first.at(i, j)),
+                        2e-6 * std::sqrt(first.at(0, 0)));
+            EXPECT_NEAR(std::sqrt(both[1].at(i, j)), std::sqrt(second.at(i, j)),
+                        2e-6 * std::sqrt(second.at(0, 0)));
+        }
+}
+
 TEST(MaskedPattern, SharesAreThoseOfTheClosedForm) {
     for (const int blades : {0, 5, 6}) {
         const StopMask mask = stop_of(blades, 0.2);

@@ -4,8 +4,10 @@
 
 #include <cmath>
 
+#include "core/flare/extended_flare.h"
 #include "core/flare/fresnel.h"
 #include "core/flare/planned_flare.h"
+#include "core/units.h"
 #include "tests/support/optics_kit.h"
 
 namespace ghostlight {
@@ -122,6 +124,61 @@ TEST(Ringing, FirstFringeIsCornusWhereItBelongs) {
         EXPECT_GT(at(pair.rung, rim + 0.3 * fringes.first_fringe_px + 1.0), 0.0);
     }
     EXPECT_GE(looked_at, 1);
+}
+
+double l1(const FlareImage& a, const FlareImage& b) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < a.irradiance.size(); ++k)
+        sum +=
+            std::abs(static_cast<double>(a.irradiance[k]) - static_cast<double>(b.irradiance[k]));
+    return sum;
+}
+
+TEST(Ringing, ARimIsTheSameWhateverCutsIt) {
+    // The stop wide open, and where it is a clear radius as small as it was: the same opening.
+    const Prescription by_stop = small_stop_tessar(0);
+    Prescription by_surface = by_stop;
+    const std::size_t row = by_stop.stop.surface;
+    Surface opening;
+    opening.medium_after = by_stop.surfaces[row - 1].medium_after;
+    opening.semi_diameter_mm = compile(by_stop, d_line_nm).stop_mask.semi_diameter_mm;
+    by_surface.surfaces.insert(by_surface.surfaces.begin() + static_cast<std::ptrdiff_t>(row),
+                               opening);
+    by_surface.stop.surface = row + 1;
+    by_surface.stop.f_number.reset();
+    const FlareRequest request = request_of(0.0, 900);
+    int compared = 0;
+    for (const GhostPath& path : rung_ghosts(by_stop, request)) {
+        GhostPath same = path;
+        for (std::size_t& surface : same.reflections) surface += surface >= row ? 1 : 0;
+        const Pair a = pair_of(by_stop, path, request), b = pair_of(by_surface, same, request);
+        if (a.rung.ringing.size() != 1 || a.rung.ringing[0].propagated) continue;
+        ASSERT_EQ(b.rung.ringing.size(), 1U) << name(path);
+        EXPECT_NEAR(b.rung.ringing[0].fresnel_number / a.rung.ringing[0].fresnel_number, 1.0, 1e-6);
+        // Grids of another box for each: a tenth of what the fringes change.
+        EXPECT_LT(l1(a.rung, b.rung), 0.1 * l1(a.rung, a.plain)) << name(path);
+        ++compared;
+    }
+    EXPECT_GE(compared, 2);
+}
+
+TEST(Ringing, OfADiscIsTheMeanOfItsPoints) {
+    const Prescription lens = small_stop_tessar(6);
+    FlareRequest request = request_of(1.0, 500);
+    request.ringing = true;
+    const FlareScene scene = flare_scene(lens, request.spectrum);
+    const LightPattern disc = disc_pattern(0.1);
+    const auto ghosts = rung_ghosts(lens, request);
+    ASSERT_FALSE(ghosts.empty());
+    request.only = {ghosts.front()};
+    const FlareImage rung = *render_extended(scene, request, disc, {});
+    ASSERT_EQ(rung.ringing.size(), 1U);
+    const FlareImage mean = *render_sampled(lens, request, disc, 5);
+    request.ringing = false;
+    const FlareImage plain = *render_extended(scene, request, disc, {});
+    // Twenty-five points for a disc: still, what is left is a part of what the fringes change.
+    EXPECT_LT(l1(rung, mean), 0.4 * l1(plain, mean));
+    EXPECT_NEAR(sum_of(rung) / sum_of(plain), 1.0, 6e-3);
 }
 
 TEST(Ringing, OnlyWhereItShows) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/flare/fold_ghosts.h"
 #include "core/flare/planned_flare.h"
 #include "core/ghosts/ghost_table.h"
 #include "core/io/scene_pictures.h"
@@ -125,12 +126,20 @@ TEST_F(SceneFlare, FoldedGhostsKeepTheirLight) {
     scene.layers.of(LayerKind::veil).on = true;
     const FlareImage drawn = ghosts();
     const FlareImage veil = *veil_layer(view(), request);
+    // What the ghosts' layer knows is what the veil would find for itself.
+    EXPECT_EQ(veil_layer(view(), request, {}, &drawn)->irradiance, veil.irradiance);
+    EXPECT_EQ(drawn.folded.size(), drawn.plan.count(GhostFate::folded));
     EXPECT_GT(drawn.plan.count(GhostFate::folded), 0U);
+    // At most the share that was asked for, and so is what folding may change, twice over.
+    EXPECT_GT(drawn.plan.folded_mm2, 0.0);
+    EXPECT_LE(drawn.plan.folded_mm2, 0.3 * (drawn.plan.folded_mm2 + drawn.plan.flux_mm2));
     EXPECT_GT(veil.flux_on_sensor_mm2, 0.0);
     EXPECT_LT(drawn.flux_on_sensor_mm2, all.flux_on_sensor_mm2);
     // What kernels of the same moments bring to the sensor, and a probe's few per cent.
     EXPECT_NEAR((drawn.flux_on_sensor_mm2 + veil.flux_on_sensor_mm2) / all.flux_on_sensor_mm2, 1.0,
                 0.05);
+    // What is folded is looked at once and traced no further.
+    EXPECT_LT(drawn.rays, all.rays);
     // Without the layer nothing is folded away.
     scene.layers.of(LayerKind::veil).on = false;
     EXPECT_EQ(ghosts().irradiance, all.irradiance);

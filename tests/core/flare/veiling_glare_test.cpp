@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/flare/ghost_mesh.h"
+#include "core/flare/veil_picture.h"
 #include "tests/support/optics_kit.h"
 
 namespace ghostlight {
@@ -134,23 +135,41 @@ TEST(VeilingGlare, NoRepeatIsSeenOnTheSensor) {
 TEST(VeilingGlare, ThePictureIsTheSeries) {
     const std::vector ghosts = {spot(3, 2, 2, 3, 0.3, 1.5), spot(-6, 1, 5, 3, 0, 0.25)};
     const VeilSeries series = series_of(ghosts, VeilKernel::gaussian);
-    const PixelFrame frame = pixel_frame(width_mm, height_mm, 320);
-    const std::vector<float> picture = veil_picture(series, 2.0, frame, 1);
-    EXPECT_GE(veil_level(2.0, frame), 1);
-    double peak = 0.0, difference = 0.0, sum = 0.0;
-    for (int row = 0; row < frame.height_px; ++row)
-        for (int column = 0; column < frame.width_px; ++column) {
-            const auto exact = series.at(frame.left_mm + (column + 0.5) * frame.pitch_mm,
-                                         frame.bottom_mm + (row + 0.5) * frame.pitch_mm);
-            const double got = static_cast<double>(
-                picture[static_cast<std::size_t>(row * frame.width_px + column) * 4 + 3]);
-            peak = std::max(peak, exact[3]);
-            difference = std::max(difference, std::abs(got - exact[3]));
-            sum += std::abs(got - exact[3]);
-        }
-    // Linear interpolation between points σ/6 apart.
-    EXPECT_LT(difference, 0.01 * peak);
-    EXPECT_EQ(picture, veil_picture(series, 2.0, frame, 2));
+    // At full size, at a half and at an eighth; a width that no step divides.
+    for (const int width_px : {60, 221, 1280}) {
+        const PixelFrame frame = pixel_frame(width_mm, height_mm, width_px);
+        const auto drawn = [&](unsigned threads) {
+            FlareImage image;
+            const auto count = static_cast<std::size_t>(frame.width_px * frame.height_px);
+            image.rgb.assign(3 * count, -1.0F);
+            image.irradiance.assign(count, -1.0F);
+            draw_veil(series, 2.0, frame, threads, image);
+            return image;
+        };
+        const FlareImage picture = drawn(1);
+        double peak = 0.0, difference = 0.0;
+        // Every pixel's series would be dear.
+        const int step = 1 + width_px / 47;
+        for (int row = 0; row < frame.height_px; row += step)
+            for (int column = 0; column < frame.width_px; column += step) {
+                const auto exact = series.at(frame.left_mm + (column + 0.5) * frame.pitch_mm,
+                                             frame.bottom_mm + (row + 0.5) * frame.pitch_mm);
+                const auto k = static_cast<std::size_t>(row * frame.width_px + column);
+                peak = std::max(peak, exact[3]);
+                for (std::size_t c = 0; c < 4; ++c) {
+                    const float got = c < 3 ? picture.rgb[3 * k + c] : picture.irradiance[k];
+                    difference =
+                        std::max(difference, std::abs(static_cast<double>(got) - exact[c]));
+                }
+            }
+        // Linear interpolation between points σ/6 apart.
+        EXPECT_LT(difference, 0.01 * peak) << width_px;
+        const FlareImage two = drawn(2);
+        EXPECT_EQ(picture.rgb, two.rgb);
+        EXPECT_EQ(picture.irradiance, two.irradiance);
+    }
+    EXPECT_EQ(veil_level(2.0, pixel_frame(width_mm, height_mm, 60)), 0);
+    EXPECT_EQ(veil_level(2.0, pixel_frame(width_mm, height_mm, 1280)), 3);
 }
 
 }  // namespace

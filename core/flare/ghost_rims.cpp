@@ -1,0 +1,161 @@
+#include "core/flare/ghost_rims.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/flare/fresnel.h"
+#include "core/units.h"
+
+namespace ghostlight {
+namespace {
+
+constexpr double first_maximum_w = 1.2172;
+constexpr double first_maximum = 0.8607;  ///< of √(λ|z_eff|), z_eff = B/M
+/// ∫ |profile − 1 in the light, profile in the shadow| dw of a straight edge, to w = 6.
+constexpr double change_per_w = 1.04;
+
+/// From |M|, |B|, the wavelength in the medium there and the rim's radius.
+GhostFringes fringes_of(double magnified, double b_mm, double wavelength_mm, double radius_mm,
+                        double pitch_mm) {
+    const double spread = wavelength_mm * std::abs(b_mm);
+    const double number = radius_mm * radius_mm * std::abs(magnified) / spread;
+    if (!std::isfinite(number) || !std::isfinite(magnified)) return {};
+    return {number, first_maximum * std::sqrt(spread * std::abs(magnified)) / pitch_mm};
+}
+
+/// The stop is where a beam that passes all clear radii is cut, and the other way round.
+struct Cuts {
+    bool surface = false;
+    std::vector<bool> crossings;
+    std::vector<std::size_t> by_surface;  ///< rays of the half grid that surfaces alone cut
+};
+Cuts cuts_of(const StopMask& stop, const Bundle<float>& rays) {
+    Cuts cuts;
+    const auto crossings = static_cast<std::size_t>(rays.stop_crossings);
+    cuts.crossings.assign(crossings, false);
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+        if (rays.margin[k] < 0.0F) continue;
+        std::size_t stopped = 0, by = 0;
+        for (std::size_t s = 0; s < crossings && stopped < 2; ++s)
+            if (!stop_passes(stop, static_cast<double>(rays.stop_u_mm[s][k]),
+                             static_cast<double>(rays.stop_v_mm[s][k]))) {
+                ++stopped;
+                by = s;
+            }
+        const bool clipped = rays.r_rel[k] > 1.0F;
+        if (clipped && stopped == 0) cuts.by_surface.push_back(k);
+        if (!clipped && stopped == 1) cuts.crossings[by] = true;
+    }
+    cuts.surface = !cuts.by_surface.empty();
+    return cuts;
+}
+
+}  // namespace
+
+double GhostFringes::px_per_w() const { return first_fringe_px / first_maximum_w; }
+
+GhostFringes ghost_fringes(const OpticalSystem& system, const ParaxialGhost& ghost,
+                           double pitch_mm) {
+    // |M| from the Fresnel number, which is that of the last crossing: N = a²|M|/(λ|B|).
+    const double a = system.stop_mask.semi_diameter_mm;
+    const double wavelength_mm =
+        mm_from_nm(system.wavelength_nm) / system.surfaces[system.stop].n_before;
+    const double b_mm = ghost.stop_to_sensor.b;
+    const double magnified = ghost.fresnel_number * wavelength_mm * std::abs(b_mm) / (a * a);
+    return fringes_of(magnified, b_mm, wavelength_mm, a, pitch_mm);
+}
+
+bool shows(const GhostFringes& fringes) {
+    return fringes.fresnel_number >= least_propagated && fringes.first_fringe_px >= least_fringe_px;
+}
+
+std::vector<bool> shows_fringes(const OpticalSystem& system, const std::vector<GhostPath>& paths,
+                                double pitch_mm) {
+    std::vector<bool> result;
+    for (const GhostPath& path : paths)
+        result.push_back(shows(ghost_fringes(system, paraxial_ghost(system, path), pitch_mm)));
+    return result;
+}
+
+double GhostRims::least_fresnel_number() const {
+    double least = shows(surface) ? surface.fresnel_number : 0.0;
+    for (const GhostFringes& rim : crossings)
+        if (shows(rim) && (least == 0.0 || rim.fresnel_number < least)) least = rim.fresnel_number;
+    return least;
+}
+
+double GhostRims::px_per_w() const {
+    double least = shows(surface) ? surface.px_per_w() : 0.0;
+    for (const GhostFringes& rim : crossings)
+        if (shows(rim) && (least == 0.0 || rim.px_per_w() < least)) least = rim.px_per_w();
+    return least;
+}
+
+double GhostRims::changed_px() const {
+    double most = shows(surface) ? surface.px_per_w() : 0.0;
+    for (const GhostFringes& rim : crossings)
+        if (shows(rim)) most = std::max(most, rim.px_per_w());
+    return change_per_w * most;
+}
+
+double GhostRims::changed_share() const {
+    // A rim of two semi-diameters per area, as deep as w = 1 is; at most all of it moves.
+    auto share = [](const GhostFringes& rim) {
+        return shows(rim) ? 2.0 * change_per_w / std::sqrt(2.0 * rim.fresnel_number) : 0.0;
+    };
+    double sum = share(surface);
+    for (const GhostFringes& rim : crossings) sum += share(rim);
+    return std::min(1.0, sum);
+}
+
+GhostRims ghost_rims(const OpticalSystem& system, const ProbedGhost& ghost, double field_deg,
+                     double pitch_mm) {
+    const GhostPath& path = ghost.planned.path;
+    const Bundle<float>& rays = ghost.grid.half;
+    StopMask stop = system.stop_mask;
+    const Cuts cuts = cuts_of(stop, rays);
+    const std::vector<ParaxialMeeting> meetings = paraxial_meetings(system, path);
+    const ParaxialGhost whole = paraxial_ghost(system, path);
+    auto fringes_from = [&](const ParaxialMeeting& at) {
+        // Unreduced matrices: det = n before the lens over n here, and S = whole · here⁻¹.
+        const RayMatrix& here = at.to_here;
+        const double det = here.a * here.d - here.b * here.c;
+        const double b = (whole.to_sensor.b * here.a - whole.to_sensor.a * here.b) / det;
+        return fringes_of(whole.to_sensor.a / here.a, b,
+                          mm_from_nm(system.wavelength_nm) * std::abs(det), at.clear_radius_mm,
+                          pitch_mm);
+    };
+    GhostRims rims;
+    for (const ParaxialMeeting& at : meetings)
+        if (at.at_stop) {
+            const std::size_t s = rims.crossings.size();
+            rims.crossings.push_back(
+                s < cuts.crossings.size() && cuts.crossings[s] ? fringes_from(at) : GhostFringes{});
+        }
+    if (!cuts.surface) return rims;
+    // A vote of the rays that surfaces alone cut: which one they pass furthest out of.
+    const double slope = std::tan(rad_from_deg(field_deg));
+    std::vector<std::size_t> votes(meetings.size(), 0);
+    for (const std::size_t k : cuts.by_surface) {
+        double furthest = 0.0;
+        std::size_t worst = 0;
+        for (std::size_t m = 0; m < meetings.size(); ++m) {
+            if (meetings[m].at_stop) continue;
+            const RayMatrix& here = meetings[m].to_here;
+            const double out =
+                std::hypot(here.a * static_cast<double>(rays.u_mm[k]),
+                           here.a * static_cast<double>(rays.v_mm[k]) + here.b * slope) /
+                meetings[m].clear_radius_mm;
+            if (out > furthest) {
+                furthest = out;
+                worst = m;
+            }
+        }
+        ++votes[worst];
+    }
+    rims.surface = fringes_from(
+        meetings[static_cast<std::size_t>(std::ranges::max_element(votes) - votes.begin())]);
+    return rims;
+}
+
+}  // namespace ghostlight
