@@ -1,5 +1,7 @@
 #include "core/flare/draw_rung.h"
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -93,13 +95,6 @@ PlacedRim placed(const RungMesh& mesh, const RimAt& rim, const Placed& triangle,
     return result;
 }
 
-void put(const RungCanvas& canvas, std::size_t pixel, float light, const RimColor& change) {
-    canvas.irradiance[canvas.irradiance_step * pixel] += light * change[rim_channels - 1];
-    if (canvas.rgb == nullptr) return;
-    float* rgb = canvas.rgb + canvas.rgb_step * pixel;
-    for (std::size_t c = 0; c < 3; ++c) rgb[c] += light * change[c];
-}
-
 /// The part of a row where one rim's profile and the picture's differ.
 std::array<int, 2> within_reach(const PlacedRim& rim, float w, std::array<int, 2> columns) {
     const RimProfile& profile = rim.group->profile;
@@ -116,6 +111,78 @@ std::array<int, 2> within_reach(const PlacedRim& rim, float w, std::array<int, 2
     return {columns[0] + static_cast<int>(from), columns[0] + static_cast<int>(std::ceil(to))};
 }
 
+using Color = Eigen::Array4f;
+
+Color color_of(const RimColor& color) { return Eigen::Map<const Color>(color.data()); }
+
+/// A row of a canvas from some pixel on.
+class RowOf {
+   public:
+    RowOf(const RungCanvas& canvas, int row, int first)
+        : rgb_step_(canvas.rgb == nullptr ? 0 : canvas.rgb_step),
+          irradiance_step_(canvas.irradiance_step),
+          is_together_(canvas.rgb_step == rim_channels && canvas.rgb != nullptr) {
+        const std::size_t pixel = idx(row) * idx(canvas.size.width_px) + idx(first);
+        rgb_ = canvas.rgb == nullptr ? nullptr : canvas.rgb + rgb_step_ * pixel;
+        irradiance_ = canvas.irradiance + irradiance_step_ * pixel;
+    }
+    /// To the next pixel.
+    void add(const Color& change) {
+        if (is_together_) {
+            Eigen::Map<Color> sum(rgb_);
+            sum += change;
+            rgb_ += rim_channels;
+            return;
+        }
+        *irradiance_ += change[rim_channels - 1];
+        irradiance_ += irradiance_step_;
+        if (rgb_ == nullptr) return;
+        for (int c = 0; c < 3; ++c) rgb_[c] += change[c];
+        rgb_ += rgb_step_;
+    }
+
+    void skip() {
+        irradiance_ += irradiance_step_;
+        if (rgb_ != nullptr) rgb_ += rgb_step_;
+    }
+
+   private:
+    std::size_t rgb_step_, irradiance_step_;
+    bool is_together_;
+    float *rgb_, *irradiance_;
+};
+
+/// A profile as pixels of a triangle have it.
+class PixelProfile {
+   public:
+    explicit PixelProfile(const PlacedRim& rim)
+        : profile_(rim.group->profile),
+          half_(0.5F * std::sqrt(rim.w.right * rim.w.right + rim.w.up * rim.w.up)),
+          most_(static_cast<float>(profile_.values.size() - 1) * 0.99999F) {}
+    Color at(float w) const {
+        if (half_ > fine_half_span) return color_of(profile_.mean(w, half_));
+        const float place = std::clamp((w + profile_.shadow) * profile_.steps_per_w, 0.0F, most_);
+        const int below = static_cast<int>(place);
+        const Color low = color_of(profile_.values[idx(below)]);
+        const Color high = color_of(profile_.values[idx(below) + 1]);
+        return low + (place - static_cast<float>(below)) * (high - low);
+    }
+
+   private:
+    /// Where a pixel spans no more of w than twice this, the profile at its middle is its mean.
+    static constexpr float fine_half_span = 0.06F;
+    const RimProfile& profile_;
+    float half_, most_;
+};
+
+/// A rim along a row.
+struct RowRim {
+    RimKind kind;
+    PixelProfile profile;
+    float w, step, per_ramp;
+    float dark_to, lit_from;  ///< w of pixels for which it is nothing or all, in the picture too
+};
+
 /// Most pixels that fringes change lie at one rim alone.
 void draw_one_rim(const RungMesh& mesh, const Placed& triangle, const PlacedRim& rim,
                   const Linear& light, const RungCanvas& canvas, int row,
@@ -123,28 +190,70 @@ void draw_one_rim(const RungMesh& mesh, const Placed& triangle, const PlacedRim&
     const auto [first, last] = within_reach(rim, triangle.at(rim.w, columns[0], row), columns);
     if (first >= last) return;
     const float w = triangle.at(rim.w, first, row), l = triangle.at(light, first, row);
-    const std::size_t pixel = idx(row) * idx(canvas.size.width_px) + idx(first);
+    const PixelProfile profile(rim);
+    const Color color = color_of(mesh.color);
+    RowOf pixels(canvas, row, first);
     for (int k = 0; k < last - first; ++k) {
         const auto step = static_cast<float>(k);
         const float at = w + step * rim.w.right;
-        RimColor change = rim.group->profile.at(at);
-        const float covered = rim.covered(at);
-        for (std::size_t c = 0; c < rim_channels; ++c)
-            change[c] = mesh.color[c] * (change[c] - covered);
-        put(canvas, pixel + idx(k), l + step * light.right, change);
+        pixels.add(((l + step * light.right) * (profile.at(at) - rim.covered(at))) * color);
     }
 }
 
 /// Of a mask that is propagated: its light, in the ghost's colours.
-RimColor masked_color(const RungMesh& mesh, float u, float v) {
-    RimColor color{};
-    for (std::size_t p = 0; p < mesh.masks->size(); ++p) {
-        const auto irradiance =
+Color masked_color(const RungMesh& mesh, float u, float v) {
+    Color color = Color::Zero();
+    for (std::size_t p = 0; p < mesh.masks->size(); ++p)
+        color +=
+            color_of(mesh.mask_shares[p]) *
             static_cast<float>((*mesh.masks)[p].at(static_cast<double>(u), static_cast<double>(v)));
-        for (std::size_t c = 0; c < rim_channels; ++c)
-            color[c] += mesh.mask_shares[p][c] * irradiance;
-    }
     return color;
+}
+
+/// At a corner, or of a propagated mask: the product of the rims. `along`: a place to work in.
+void draw_rims(const RungMesh& mesh, const Placed& triangle, const std::vector<PlacedRim>& rims,
+               const RungTriangle& own, const RungCanvas& canvas, int row,
+               std::array<int, 2> columns, std::vector<RowRim>& along) {
+    if (columns[0] >= columns[1]) return;
+    const Linear light = triangle.linear(own.light);
+    const Linear u = triangle.linear(own.u), v = triangle.linear(own.v);
+    const Color color = color_of(mesh.color);
+    RowOf pixels(canvas, row, columns[0]);
+    along.clear();
+    for (const PlacedRim& rim : rims)
+        along.push_back({rim.group->kind, PixelProfile(rim), triangle.at(rim.w, columns[0], row),
+                         rim.w.right, rim.per_ramp,
+                         -std::max(rim.group->profile.shadow, 0.5F / rim.per_ramp),
+                         std::max(rim.group->profile.light, 0.5F / rim.per_ramp)});
+    const float first_light = triangle.at(light, columns[0], row);
+    for (int column = columns[0]; column < columns[1]; ++column) {
+        const auto step = static_cast<float>(column - columns[0]);
+        bool is_dark = false, is_lit = mesh.masks == nullptr;
+        for (const RowRim& rim : along) {
+            const float at = rim.w + step * rim.step;
+            is_dark = is_dark || (rim.kind != RimKind::masked && at <= rim.dark_to);
+            is_lit = is_lit && at >= rim.lit_from;
+        }
+        if (is_dark || is_lit) {
+            pixels.skip();
+            continue;
+        }
+        Color change = color;
+        if (mesh.masks != nullptr)
+            change = masked_color(mesh, triangle.at(u, column, row), triangle.at(v, column, row));
+        float covered = 1.0F;
+        for (const RowRim& rim : along) {
+            const float at = rim.w + step * rim.step;
+            if (at >= rim.lit_from) continue;
+            const float own_cover = std::clamp(0.5F + at * rim.per_ramp, 0.0F, 1.0F);
+            covered *= own_cover;
+            if (rim.kind == RimKind::fringed)
+                change *= rim.profile.at(at);
+            else if (rim.kind == RimKind::sharp)
+                change *= own_cover;
+        }
+        pixels.add((first_light + step * light.right) * (change - color * covered));
+    }
 }
 
 }  // namespace
@@ -181,6 +290,7 @@ std::vector<std::vector<std::uint32_t>> sorted_by_band(const RungMesh& mesh, con
 void draw_rung(const RungMesh& mesh, std::span<const std::uint32_t> triangles,
                const RungCanvas& canvas, int first_row, int last_row) {
     std::vector<PlacedRim> rims;
+    std::vector<RowRim> along;
     for (const std::uint32_t t : triangles) {
         const RungTriangle& own = mesh.triangles[t];
         const Placed triangle(own, canvas);
@@ -190,35 +300,13 @@ void draw_rung(const RungMesh& mesh, std::span<const std::uint32_t> triangles,
             rims.push_back(placed(mesh, mesh.rims[own.first_rim + r], triangle, canvas));
         const bool one_rim = mesh.masks == nullptr && rims.size() == 1;
         const Linear light = triangle.linear(own.light);
-        const Linear u = triangle.linear(own.u), v = triangle.linear(own.v);
         const auto [low, high] = triangle.rows();
         for (int row = std::max(first_row, low); row < std::min(last_row, high); ++row) {
             const auto columns = triangle.columns(row, canvas.size.width_px);
-            if (one_rim) {
+            if (one_rim)
                 draw_one_rim(mesh, triangle, rims.front(), light, canvas, row, columns);
-                continue;
-            }
-            for (int column = columns[0]; column < columns[1]; ++column) {
-                RimColor change = mesh.color;
-                if (mesh.masks != nullptr)
-                    change = masked_color(mesh, triangle.at(u, column, row),
-                                          triangle.at(v, column, row));
-                float covered = 1.0F;
-                for (const PlacedRim& rim : rims) {
-                    const float at = triangle.at(rim.w, column, row);
-                    const float own_cover = rim.covered(at);
-                    covered *= own_cover;
-                    if (rim.group->kind == RimKind::fringed) {
-                        const RimColor profile = rim.group->profile.at(at);
-                        for (std::size_t c = 0; c < rim_channels; ++c) change[c] *= profile[c];
-                    } else if (rim.group->kind == RimKind::sharp) {
-                        for (std::size_t c = 0; c < rim_channels; ++c) change[c] *= own_cover;
-                    }
-                }
-                for (std::size_t c = 0; c < rim_channels; ++c) change[c] -= mesh.color[c] * covered;
-                put(canvas, idx(row) * idx(canvas.size.width_px) + idx(column),
-                    triangle.at(light, column, row), change);
-            }
+            else
+                draw_rims(mesh, triangle, rims, own, canvas, row, columns, along);
         }
     }
 }

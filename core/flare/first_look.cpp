@@ -81,6 +81,8 @@ class FirstLook {
         }
         const double off_px =
             grid_factor * bend_px(nodes, frame) + rim_factor * rim_px(nodes, frame);
+        // Beside failing rays and total reflection, light is anywhere within a cell.
+        planned.error_mm2 = light_in(singular_cells(grid, nodes), nodes);
         nodes.weights = std::move(colors);
         add_grid(nodes, frame, drawn.mesh);
         judge(off_px, drawn.mesh.edge_contrast, drawn.mesh.slope_contrast, planned);
@@ -118,8 +120,9 @@ class FirstLook {
                blurred(planned.level + 1) < blurred_share * planned.flux_mm2)
             ++planned.level;
         // All of a ghost's light in the wrong place counts twice.
-        planned.error_mm2 = std::min(2.0 * planned.flux_mm2, pixel_mm2 * contrast * off_px) +
-                            blurred(planned.level);
+        planned.error_mm2 =
+            std::min(2.0 * planned.flux_mm2, planned.error_mm2 + pixel_mm2 * contrast * off_px) +
+            blurred(planned.level);
     }
 
     /// What all clear radii leave of the meridian, to first order; empty where nothing is left.

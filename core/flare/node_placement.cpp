@@ -1,7 +1,9 @@
 #include "core/flare/node_placement.h"
 
 #include <cmath>
+#include <numbers>
 #include <utility>
+#include <vector>
 
 #include "core/units.h"
 
@@ -9,6 +11,37 @@ namespace ghostlight {
 namespace {
 
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
+
+/// stop_margin() of a blade, with what does not depend on the ray worked out once.
+struct Blade {
+    double nx, ny;                  ///< of a straight one: outwards, over the semi-diameter
+    double distance;                ///< from the middle
+    double radius;                  ///< of a curved one, in semi-diameters; 0: straight
+    double per_mm, back_x, back_y;  ///< to the middle of its arc
+    double margin(double u_mm, double v_mm) const {
+        if (radius == 0.0) return distance - (u_mm * nx + v_mm * ny);
+        const double x = u_mm * per_mm + back_x, y = v_mm * per_mm + back_y;
+        return radius - std::sqrt(x * x + y * y);
+    }
+};
+
+std::vector<Blade> blades_of(const StopMask& mask) {
+    std::vector<Blade> blades;
+    const double per_mm = 1.0 / mask.semi_diameter_mm;
+    for (int edge = 0; edge < (mask.blades < 3 ? 0 : mask.blades); ++edge) {
+        const double half = std::numbers::pi / mask.blades;
+        const double middle = mask.rotation_rad + half * (2 * edge + 1);
+        const double nx = std::cos(middle), ny = std::sin(middle);
+        const bool curved = mask.blade_curvature > 0.0;
+        const double radius = curved ? 1.0 / mask.blade_curvature : 0.0;
+        const double back =
+            curved ? std::sqrt(radius * radius - std::pow(std::sin(half), 2)) - std::cos(half)
+                   : 0.0;
+        blades.push_back(
+            {nx * per_mm, ny * per_mm, std::cos(half), radius, per_mm, back * nx, back * ny});
+    }
+    return blades;
+}
 
 }  // namespace
 
@@ -40,6 +73,7 @@ MeshNodes NodePlacement::place(const Bundle<float>& rays, int cells, double cell
     const auto left = static_cast<float>(-frame_.left_mm) * pitch;
     const auto bottom = static_cast<float>(-frame_.bottom_mm) * pitch;
     const auto inverse_stop = static_cast<float>(1.0 / stop_mask_.semi_diameter_mm);
+    const std::vector<Blade> blades = blades_of(stop_mask_);
     std::size_t k = 0;
     for (int j = 0; j < side; ++j)
         for (int i = 0; i < side; ++i, ++k) {
@@ -57,6 +91,9 @@ MeshNodes NodePlacement::place(const Bundle<float>& rays, int cells, double cell
                 if (stop_mask_.blades == 0)
                     nodes.clearances[1 + idx(s * edges + edge++)][k] =
                         1.0F - std::sqrt(u * u + v * v) * inverse_stop;
+                for (; idx(edge) < blades.size(); ++edge)
+                    nodes.clearances[1 + idx(s * edges + edge)][k] = static_cast<float>(
+                        blades[idx(edge)].margin(static_cast<double>(u), static_cast<double>(v)));
                 for (; edge < edges; ++edge)
                     nodes.clearances[1 + idx(s * edges + edge)][k] = static_cast<float>(stop_margin(
                         stop_mask_, edge, static_cast<double>(u), static_cast<double>(v)));

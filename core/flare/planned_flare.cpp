@@ -92,7 +92,8 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
                                                                     : drawn[k].mesh.flux_mm2[C - 1];
             image.cells += drawn[k].mesh.cells;
             image.rays += planned.rays;
-            release(probed[batch.first + k]);
+            // Fringes need what they are drawn from once more.
+            if (!request.ringing) release(probed[batch.first + k]);
         }
     }
     if (request.ringing) {

@@ -9,9 +9,9 @@ namespace ghostlight {
 namespace {
 
 /// How far the profile is followed into the light before the taper ends, in Fresnel's w. Colours
-/// have run into one another by then (what is left of white light's fringes is below 1 % of the
+/// have run into one another by then (what is left of white light's fringes is below 2 % of the
 /// light); of one wavelength more of it shows.
-constexpr double into_light = 4.5, into_light_gray = 14.0;
+constexpr double into_light = 3.6, into_light_gray = 14.0;
 /// Fringes finer than a pixel lie beyond w = 2 × pixels per w.
 constexpr double finest_fringe_px = 1.0;
 constexpr double tapered_share = 0.35;  ///< of the depth in the light
@@ -113,6 +113,12 @@ RimProfile rim_profile(const FlareScene& scene, const ColorShares& shares, doubl
         for (std::size_t c = 0; c < rim_channels; ++c)
             profile.values[idx(k)][c] -=
                 static_cast<float>(bump(k * step - shadow) * sum[c] / room[c]);
+    profile.below.resize(profile.values.size());
+    for (std::size_t k = 1; k < profile.values.size(); ++k)
+        for (std::size_t c = 0; c < rim_channels; ++c)
+            profile.below[k][c] =
+                profile.below[k - 1][c] +
+                0.5F * (profile.values[k - 1][c] + profile.values[k][c]) / profile.steps_per_w;
     return profile;
 }
 

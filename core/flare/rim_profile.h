@@ -13,7 +13,7 @@ inline constexpr int rim_channels = 4;
 using RimColor = std::array<float, rim_channels>;
 
 /// How far the profile is followed into the shadow, in Fresnel's w.
-inline constexpr double into_shadow = 2.5;
+inline constexpr double into_shadow = 2.2;
 
 /// The profile of one rim over Fresnel's w, positive in the light: in every channel as a share of
 /// the light there, of all wavelengths together.
@@ -22,6 +22,29 @@ struct RimProfile {
     float steps_per_w = 0.0F;
     std::vector<RimColor> values;  ///< from −shadow to light
 
+    /// ∫ values dw from the first on, so that a pixel's mean is a difference; built with them.
+    std::vector<RimColor> below;
+
+    /// Mean over w − half to w + half: what a pixel has that spans so much.
+    RimColor mean(float w, float half) const {
+        const RimColor high = integral(w + half), low = integral(w - half);
+        RimColor value;
+        for (std::size_t c = 0; c < rim_channels; ++c)
+            value[c] = (high[c] - low[c]) / (2.0F * half);
+        return value;
+    }
+    RimColor integral(float w) const {
+        const float place = (w + shadow) * steps_per_w;
+        if (!(place > 0.0F)) return RimColor{};
+        const auto k = static_cast<std::size_t>(place);
+        RimColor value = below[k + 1 < below.size() ? k : below.size() - 1];
+        const float rest = w - light;
+        for (std::size_t c = 0; c < rim_channels; ++c)
+            value[c] = k + 1 < below.size() ? value[c] + (place - static_cast<float>(k)) *
+                                                             (below[k + 1][c] - value[c])
+                                            : value[c] + rest;
+        return value;
+    }
     RimColor at(float w) const {
         const float place = (w + shadow) * steps_per_w;
         if (!(place > 0.0F)) return RimColor{};

@@ -17,7 +17,7 @@ constexpr int band_rows = 16;
 constexpr double least_flux_share = 1e-4;
 /// Those whose fringes change least are left out while what they would change adds up to less than
 /// this share of the picture's tolerance.
-constexpr double left_out_share = 0.25;
+constexpr double left_out_share = 0.5;
 
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 

@@ -22,7 +22,7 @@ namespace ghostlight {
 /// Left as they are: rims whose fringes would be finer than a pixel or than what the picture's
 /// size misplaces, or that are too close to their focus (below `least_propagated`); and of a whole
 /// picture's ghosts those whose fringes change least, as long as all that they would change is
-/// less than a quarter of its tolerance. Ghosts in the order of `ghosts`; nothing when stopped.
+/// less than half of its tolerance. Ghosts in the order of `ghosts`; nothing when stopped.
 std::optional<std::vector<RungMesh>> ringing_of(const FlareScene& scene,
                                                 const FlareRequest& request,
                                                 const GhostPlanner& planner,

@@ -9,22 +9,29 @@
 namespace ghostlight {
 namespace {
 
-constexpr int grid_cells = 40;  ///< across a ghost's beam, its shadow's side included
+/// Cells across a ghost's beam, its shadow's side included: of those, as many as draw a round rim
+/// by chords that are off by at most so much of w, and no fewer than the ghost itself has.
+constexpr int fewest_cells = 20, most_cells = 40;
+constexpr double most_chord_w = 0.025;
 /// Below this Fresnel number the rim's curvature shows in the fringes: the mask is propagated.
 constexpr double whole_mask_below = 20.0;
 /// A rim drawn small and brought up bilinearly is a ramp this many of its pixels long.
 constexpr double coarse_rim_px = 2.2;
-/// Clearance up to which a rim without fringes may still be seen by a pixel.
-constexpr float near_rim_clearance = 0.5F;
 /// Pixels per w of a level: colours' fringes are then resolved up to where they run into one
 /// another, one wavelength's a good deal further.
 constexpr double least_px_per_w = 5.0, least_px_per_w_gray = 8.0;
 
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 
-PupilBox widened(const PupilBox& box, double share) {
-    const double du = (0.5 * share + 1.0 / grid_cells) * (box.u1_mm - box.u0_mm);
-    const double dv = (0.5 * share + 1.0 / grid_cells) * (box.v1_mm - box.v0_mm);
+int cells_for(const PlannedGhost& planned, double fresnel_number, double reach) {
+    const double breadth = std::sqrt(8.0 * most_chord_w / std::sqrt(2.0 * fresnel_number));
+    const int wanted = std::max(static_cast<int>(std::ceil(2.0 * reach / breadth)), planned.cells);
+    return std::clamp((wanted + 1) / 2 * 2, fewest_cells, most_cells);
+}
+
+PupilBox widened(const PupilBox& box, double share, int cells) {
+    const double du = (0.5 * share + 1.0 / cells) * (box.u1_mm - box.u0_mm);
+    const double dv = (0.5 * share + 1.0 / cells) * (box.v1_mm - box.v0_mm);
     return {box.u0_mm - du, box.u1_mm + du, box.v0_mm - dv, box.v1_mm + dv};
 }
 
@@ -193,7 +200,8 @@ class Laying {
             triangle.light[n] = irradiance[k];
             triangle.u[n] = places_.u[k];
             triangle.v[n] = places_.v[k];
-            nearest = std::min(nearest, std::hypot(places_.u[k], places_.v[k]));
+            if (mesh_.masks != nullptr)
+                nearest = std::min(nearest, std::hypot(places_.u[k], places_.v[k]));
         }
         if (mesh_.masks != nullptr && nearest > reach_) return;
         for (const Rim& rim : rims_) {
@@ -211,7 +219,8 @@ class Laying {
                 mesh_.rims.resize(triangle.first_rim);
                 return;
             }
-            if (least >= (fringed ? group.profile.light : near_rim_clearance)) continue;
+            // A rim without fringes may still be seen by a pixel up to a triangle's breadth away.
+            if (least >= (fringed ? group.profile.light : most - least)) continue;
             mesh_.rims.push_back(at);
             is_near = is_near || fringed;
         }
@@ -255,7 +264,10 @@ RungMesh rung_mesh(const FlareScene& scene, const GhostPlanner& planner, const P
     const bool pictured = stop_mask.picture != nullptr;
     const bool propagates = shows(last) && (last.fresnel_number < whole_mask_below ||
                                             (pictured && last.fresnel_number <= most_propagated));
-    const GhostFringes& named = shows(last) ? last : rims.surface;
+    const auto shown = std::ranges::find_if(rims.crossings, shows);
+    const GhostFringes& named = shows(last)                     ? last
+                                : shown != rims.crossings.end() ? *shown
+                                                                : rims.surface;
     mesh.report = {ghost.planned.path, named.fresnel_number, named.first_fringe_px, propagates};
     const ColorShares shares = color_shares(scene, mean_spectrum(scene, ghost));
     for (const auto& share : shares)
@@ -266,7 +278,8 @@ RungMesh rung_mesh(const FlareScene& scene, const GhostPlanner& planner, const P
     const double reach = propagates
                              ? 1.0 + std::min(1.0, 4.0 / std::sqrt(2.0 * last.fresnel_number))
                              : 1.0 + std::min(1.0, into_shadow / std::sqrt(2.0 * least_number));
-    MirrorGrid grid{widened(ghost.planned.box, reach - 1.0), grid_cells, {}};
+    const int cells = propagates ? most_cells : cells_for(ghost.planned, least_number, reach);
+    MirrorGrid grid{widened(ghost.planned.box, reach - 1.0, cells), cells, {}};
     lay_mirrored(grid);
     planner.trace_main(ghost, grid.half);
     const MeshNodes nodes = planner.placement().place(grid);
@@ -299,8 +312,10 @@ RungMesh rung_mesh(const FlareScene& scene, const GhostPlanner& planner, const P
             propagates && s + 1 == rims.crossings.size());
     const StopPlaces places = stop_places(grid, planner.placement());
     Laying(nodes, planner.placement().frame(), light, places, cutting, reach, mesh).lay();
-    // A broad ghost whose fringes are broad too is drawn as small as its own picture.
+    // A broad ghost's fringes are drawn small, too: as their breadth allows, or twice as fine as
+    // the ghost itself, which its allowance covers.
     const double least = scene.is_gray() ? least_px_per_w_gray : least_px_per_w;
+    mesh.level = std::max(0, level - 1);
     while (mesh.level < level && mesh.px_per_w >= std::ldexp(least, mesh.level + 1)) ++mesh.level;
     mesh.rim_px = std::exp2(level) * (mesh.level < level ? coarse_rim_px : 1.0);
     return mesh;

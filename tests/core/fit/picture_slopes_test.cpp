@@ -96,19 +96,22 @@ TEST(PictureSlopes, AreThoseOfDifferencesOnEveryLens) {
         for (const FitParameter& p : parameters)
             moves.moves.push_back(
                 lens_move(kit.scene, lens_at(p, -1e-3), lens_at(p, 1e-3), light, 2e-3));
-        moves.moves.push_back(light_move(kit.scene, {light.field_deg - 1e-4, light.azimuth_deg},
-                                         {light.field_deg + 1e-4, light.azimuth_deg}, 2e-4));
+        // The field in units of what a fit's prior gives it, degrees.
+        constexpr double field_unit_deg = 0.03;
+        auto turned = [&](double by) {
+            return LightDirection{light.field_deg + by * field_unit_deg, light.azimuth_deg};
+        };
+        moves.moves.push_back(light_move(kit.scene, turned(-1e-3), turned(1e-3), 2e-3));
         const ModelPicture slopes =
             picture_slopes(kit.scene, kit.bases, weights, light, kit.frame, {}, moves, 0, {});
         for (std::size_t k = 0; k < moves.moves.size(); ++k) {
             const bool of_lens = k < parameters.size();
-            // Over so small a step corners of cut cells stay where they are; what rounding of the
-            // single-precision rays leaves is allowed for below.
-            const double step = of_lens ? 0.05 : 2e-3;
+            // Rays in single precision leave 3e-5 of the picture: over less of a prior's breadth
+            // that would be all that is seen.
+            constexpr double step = 0.3;
             auto at = [&](double by) {
                 return of_lens ? moved_picture(kit, lens_at(parameters[k], by), light)
-                               : moved_picture(kit, {lens, {}},
-                                               {light.field_deg + by, light.azimuth_deg});
+                               : moved_picture(kit, {lens, {}}, turned(by));
             };
             const auto more = at(step), less = at(-step);
             auto slope = column(slopes, place_slopes + k);
@@ -117,9 +120,10 @@ TEST(PictureSlopes, AreThoseOfDifferencesOnEveryLens) {
                 difference[s] = (more[s] - less[s]) / (2.0 * step);
                 slope[s] -= difference[s];
             }
-            // A hundredth of the slope; or of what a prior's move leaves where the slope is small.
+            // A twentieth of the slope, for what bends over the step (blades' corners most), and
+            // that rounding.
             EXPECT_LT(root_of_squares(slope),
-                      0.01 * root_of_squares(difference) + 1e-5 * root_of_squares(now))
+                      0.05 * root_of_squares(difference) + 1e-4 * root_of_squares(now))
                 << each.file << ", " << (of_lens ? name(parameters[k]) : "field");
         }
     }

@@ -67,10 +67,13 @@ TEST(FlareImageSlow, HoldsTheFluxOfTheGhostTableOfLargeLenses) {
 }
 
 TEST(FlareImage, HugeSensorHoldsAllLight) {
-    constexpr double tolerance = 1e-5;  // float pixels, summed in double
+    // Float pixels, summed in double; on the axis pixels 10 mm wide are boxes along a ghost's
+    // radius (radial_profile.h), hence parts of a thousand.
+    constexpr double tolerance_off_axis = 1e-5, tolerance_on_axis = 1e-3;
     Prescription lens = bundled("tessar_brendel_100_f2.8");
     lens.sensor.width_mm = lens.sensor.height_mm = 4000.0;
     for (const double field : {0.0, 12.0}) {
+        const double tolerance = field == 0.0 ? tolerance_on_axis : tolerance_off_axis;
         const FlareImage image = image_of(lens, request_of({field, 90.0}, 400));
         EXPECT_GT(image.flux_mm2, 0.0);
         EXPECT_NEAR(image.flux_on_sensor_mm2, image.flux_mm2, tolerance * image.flux_mm2);

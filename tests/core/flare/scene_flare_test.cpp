@@ -159,6 +159,17 @@ TEST_F(SceneFlare, OtherEnginesTakeSizesAndArtisticChangesToo) {
     EXPECT_NEAR(ghosts().flux_on_sensor_mm2 / uniform.flux_on_sensor_mm2, 0.5, 0.01);
 }
 
+TEST(OtherLights, AreThoseThatAreOnButForTheChosenOne) {
+    Scene scene;
+    scene.lights.resize(4);
+    for (std::size_t k = 0; k < 4; ++k)
+        scene.lights[k].direction.field_deg = static_cast<double>(k + 1);
+    scene.lights[2].on = false;
+    scene.active_light = 1;
+    EXPECT_EQ(other_lights(scene),
+              (std::vector<LightDirection>{scene.lights[0].direction, scene.lights[3].direction}));
+}
+
 TEST(Foldable, TakesTheFaintAndBroadUpToItsShare) {
     const auto spot = [](double flux, double sigma) {
         GhostSpot m;
