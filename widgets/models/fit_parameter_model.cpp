@@ -198,17 +198,17 @@ bool FitParameterModel::setData(const QModelIndex& index, const QVariant& value,
         }
         const QString of = QString::fromStdString(name(p));
         if (!number) {
-            Q_EMIT refused(QStringLiteral("%1: “%2” is not a number").arg(of, value.toString()));
+            Q_EMIT refused(tr("%1: “%2” is not a number").arg(of, value.toString()));
             return false;
         }
         if (!(p.lower < p.upper) || p.start < p.lower || p.start > p.upper) {
             Q_EMIT refused(
-                QStringLiteral("%1: bounds %2 … %3 do not hold the start %4")
+                tr("%1: bounds %2 … %3 do not hold the start %4")
                     .arg(of, significant(p.lower), significant(p.upper), significant(p.start)));
             return false;
         }
         if (!(p.prior > 0.0)) {
-            Q_EMIT refused(QStringLiteral("%1: the prior needs a width above 0").arg(of));
+            Q_EMIT refused(tr("%1: the prior needs a width above 0").arg(of));
             return false;
         }
     } else {

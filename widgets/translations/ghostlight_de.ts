@@ -777,6 +777,57 @@
     </message>
 </context>
 <context>
+    <name>FitGhostModel</name>
+    <message>
+        <source>Counts</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Signal/noise</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Before, %</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>After, %</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Gain</source>
+        <translation>Stärke</translation>
+    </message>
+    <message>
+        <source>In the fit</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A ghost by its two surfaces; only what is marked counts in the fit</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>√Σ (model / σ)² over the samples of the photograph that shows it best</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Its share of the model&apos;s light on the samples, before the fit</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Its share of the model&apos;s light on the samples, after the fit</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Its light in the photograph over the fitted model&apos;s, all ghosts unmixed together</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Below the noise: left out by the fit, with the most that its signal to noise can be, its coatings six times as bright as at the start</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
     <name>FitParameterModel</name>
     <message>
         <source>Varies</source>
@@ -843,11 +894,11 @@
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>95 % interval</source>
+        <source>Determined: narrower than half its prior. Weak: narrower, but by less. Prior: the photographs say nothing. Not felt: no visible ghost depends on it. At bound: its error means little</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Determined: narrower than half its prior. Weak: narrower, but by less. Prior: the photographs say nothing. Not felt: no visible ghost depends on it. At bound: its error means little</source>
+        <source>95 % interval; P by the number&apos;s profile likelihood</source>
         <translation type="unfinished"></translation>
     </message>
 </context>
@@ -1585,6 +1636,41 @@ Das Farbfeld zeigt die gespiegelte Farbe unter dem gewählten Licht.</translatio
     </message>
 </context>
 <context>
+    <name>QObject</name>
+    <message>
+        <source>light</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>clipped</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>painted</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>outside of the crop</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>no numbers</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>1 hot pixel</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>%1 hot pixels</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>%1 masked: %2</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
     <name>QuantityModel</name>
     <message>
         <source>Quantity</source>
@@ -1885,6 +1971,18 @@ sodass die Spalte mehr ergibt als alle Reflexe.</translation>
         <source>Only the ghosts of one point light, unchanged by hand, have a plan that says all about them.</source>
         <translation type="unfinished"></translation>
     </message>
+    <message>
+        <source>Error against time of every way to draw this lens&apos;s flare, measured against a reference, and what the picture leaves out.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Measures every method against a reference for the lens and light at hand.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Accuracy</source>
+        <translation>Genauigkeit</translation>
+    </message>
 </context>
 <context>
     <name>ghostlight::Banner</name>
@@ -1914,6 +2012,233 @@ sodass die Spalte mehr ergibt als alle Reflexe.</translation>
     <message>
         <source>%1 suspicious, %2 worth knowing · click to go there</source>
         <translation>%1 verdächtig, %2 zu wissen · ein Klick geht dorthin</translation>
+    </message>
+</context>
+<context>
+    <name>ghostlight::CoatingPanel</name>
+    <message>
+        <source>The coating of the surface chosen in the prescription: its layers, what it reflects, and the ghosts that it feeds.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>None</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Quarter wave, MgF2</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Quarter wave, ideal</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Layers</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Constant R</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Measured table</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Coating</source>
+        <translation>Vergütung</translation>
+    </message>
+    <message>
+        <source>+ Layer</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A layer after the chosen one</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>− Layer</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Take the chosen layer away</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>⇅ Turn</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The same layers in reverse order</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>R over wavelength</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>R over angle</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Kind of coating</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Material</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Layers count from the side that light comes from, or from the air</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>MgF2, a catalogue name, or an index at every wavelength</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Thickness in nm; arithmetic is taken: =550/4/1.38</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Extinction k of n + ik; 0 for a layer that does not absorb</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>from the front</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>from behind</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>From where the light comes: the angle is the one in the medium there</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Side that the light comes from</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Wavelength of the curve over the angle in nm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Wavelength of the curve over the angle, nm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Surfaces to copy the coating to</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Surfaces that get the same coating: 2-5, 8</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Licht</translation>
+    </message>
+    <message>
+        <source>at</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Copy</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>To all that face air</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The same coating on every surface between air and glass</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Copy to</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>add a layer to the coating</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>remove a layer of the coating</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>turn the coating</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>change coating of surface %1</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>a thickness in nm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>an extinction, 0 or more</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>a centre wavelength in nm</source>
+        <translation>eine mittlere Wellenlänge in nm</translation>
+    </message>
+    <message>
+        <source>per cent, from 0 to 100</source>
+        <translation>Prozent, von 0 bis 100</translation>
+    </message>
+    <message>
+        <source>copy the coating of surface %1 to %2 surfaces</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>table</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>centre nm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>at every wavelength</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source># air</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>No ghost turns here.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The ghosts are not traced yet.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>&lt;a href=&quot;%1&quot;&gt;%2&lt;/a&gt; %3 mm², met at %4° (up to %5°) %6</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Feeds most: </source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>&lt;br&gt;then </source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>R % over angle, %1 nm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>R % over wavelength, %1°</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
@@ -2192,155 +2517,7 @@ Was dabei entsteht, ist eine eigene Stellung; Rückgängig nimmt sie wieder weg.
     </message>
 </context>
 <context>
-    <name>ghostlight::FitPanel</name>
-    <message>
-        <source>failed</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>change what a fit varies</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Add…</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Add photographs: EXR, TIFF, PNG, JPEG or camera RAW</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Remove</source>
-        <translation>Entfernen</translation>
-    </message>
-    <message>
-        <source>Take this photograph out of the fit</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Where the light is: auto, X,Y in pixels from the upper left corner, or deg:FIELD:AZIMUTH; or click it in the photograph</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Find</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>The middle of the largest bright patch</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Light</source>
-        <translation>Licht</translation>
-    </message>
-    <message>
-        <source>Photographs</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>remove a photograph</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>All coatings</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Vary the centre wavelength, or the constant reflectance, of every coated surface</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Marked</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Vary what is marked V in the prescription (Ctrl+M there)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>KIND@ROWS[=LOWER..UPPER][~PRIOR]; KIND: center, thickness, layer.N, layer-index.N, reflectance, radius, gap, index, semi-diameter, and stop-size, stop-x, stop-y, stop-rotation without rows; ROWS: 3, 2+5 (one common value), all</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Add</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Vary this too</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Take the chosen rows out</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Of the light: D65, A, E, LED, sodium, 3200 K, 550 nm …</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Exposures of one scene</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Merge the photographs by their exposure times before the fit</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Suggest the next photograph</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Tries other angles of the light in the model; takes longer</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Spectrum</source>
-        <translation>Spektrum</translation>
-    </message>
-    <message>
-        <source>no surface of this lens has a quarter-wave layer or a constant reflectance; vary thickness@all of layer stacks, or coat it first</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>vary all coatings</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>nothing is marked; choose a cell of the prescription and press Ctrl+M</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>vary what is marked</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>vary %1</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>vary less</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>change the fit&apos;s spectrum</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>merge exposures</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>keep exposures apart</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>suggest photographs</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>suggest no photographs</source>
-        <translation type="unfinished"></translation>
-    </message>
+    <name>ghostlight::FitControls</name>
     <message>
         <source>Start</source>
         <translation type="unfinished"></translation>
@@ -2354,7 +2531,7 @@ Was dabei entsteht, ist eine eigene Stellung; Rückgängig nimmt sie wieder weg.
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Wait after the iteration in work</source>
+        <source>Wait after the step in work</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2382,39 +2559,107 @@ Was dabei entsteht, ist eine eigene Stellung; Rückgängig nimmt sie wieder weg.
         <translation type="unfinished"></translation>
     </message>
     <message>
+        <source>Resume</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
+    <name>ghostlight::FitGhostModel</name>
+    <message>
+        <source>left out by you</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>fitted</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>not told from %1</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>below the noise: at most %1</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>not on the photographs</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
+    <name>ghostlight::FitGhostPage</name>
+    <message>
+        <source>Leave out</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The chosen ghosts do not count</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Use only these</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The chosen ghosts alone count</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Use all</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Every ghost counts</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>leave ghosts out of the fit</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>use only some ghosts in the fit</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>use all ghosts in the fit</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>use ghost %1 in the fit</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>leave ghost %1 out of the fit</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>%1 of %2 ghosts count.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source> %1 below the noise were left out: signal to noise %2 at the start, all together.</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
+    <name>ghostlight::FitJob</name>
+    <message>
+        <source>reading the photographs</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
+    <name>ghostlight::FitPanel</name>
+    <message>
+        <source>failed</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Save Report</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
         <source>HTML (*.html)</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>add a photograph</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>add photographs</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>place the photograph&apos;s light</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>reading…</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Add a photograph with a bright light in or near the frame.</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>light at %1°</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Resume</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -2438,14 +2683,6 @@ Was dabei entsteht, ist eine eigene Stellung; Rückgängig nimmt sie wieder weg.
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>stopped; best so far kept, errors unknown</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>stopped before the first step</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
         <source>done in %1 s</source>
         <translation type="unfinished"></translation>
     </message>
@@ -2461,6 +2698,447 @@ Was dabei entsteht, ist eine eigene Stellung; Rückgängig nimmt sie wieder weg.
         <source>apply the fit</source>
         <translation type="unfinished"></translation>
     </message>
+    <message>
+        <source>Finds the coatings and elements that explain photographs of the lens&apos;s flare, and says how well each is known.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Fit</source>
+        <translation>Anpassung</translation>
+    </message>
+    <message>
+        <source>what varies does not suit this lens</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>reading the photographs</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>a photograph cannot be used</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>pausing after this step</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>fitting: %1</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>, %1</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>best so far kept, errors unknown</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>nothing was found yet</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>stopping; %1</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>stopped; %1</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>waiting for the last one to stop</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
+    <name>ghostlight::FitParameterModel</name>
+    <message>
+        <source>profile</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>%1: “%2” is not a number</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>%1: bounds %2 … %3 do not hold the start %4</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>%1: the prior needs a width above 0</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
+    <name>ghostlight::FitPhotoForm</name>
+    <message>
+        <source>%1 cannot be taken</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Width, mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Of the whole picture on the sensor, mm; give it where the file is a part of the sensor, or the camera&apos;s sensor is not the lens&apos;s</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>the width</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>mm above 0</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>change the photograph&apos;s width</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Axis, px</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>X,Y of the lens&apos;s axis in the file, pixels from the upper left corner: the principal point</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>move the photograph&apos;s axis</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Rotation, °</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Of the camera about the axis, degrees; what is left of it is fitted</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>the rotation</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>degrees from -180 to 180</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>turn the photograph</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Crop, px</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>X,Y,WIDTH,HEIGHT of the part that counts, pixels from the upper left corner; or drag it in the picture with Crop</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>crop the photograph</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Noise</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>SHOT,READ: the variance of a value is SHOT × value + READ, 1 being full scale</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>change the photograph&apos;s noise</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Clips at</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Values from here on are clipped and do not count; 1 is full scale</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>the saturation</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>a value above 0</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>change where the photograph clips</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Mask file</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A picture of the photograph&apos;s shape, bright where not to look</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>change the photograph&apos;s mask</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Choose…</source>
+        <translation>Wählen …</translation>
+    </message>
+    <message>
+        <source>Choose the mask&apos;s file</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Mask</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>all</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>the middle</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>0</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>%1, the sensor&apos;s</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>%1,%2 %3</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>estimated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>by the file</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>by the file, or estimated</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>as the file has it</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>nothing is clipped</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
+    <name>ghostlight::FitPhotographs</name>
+    <message>
+        <source>Photographs (%1);;All files (*)</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>place the photograph&apos;s light</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>mask a region</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>take a masked region away</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>crop the photograph</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>take the crop away</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The photograph that is shown; the fit takes all of them</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Add…</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Add photographs: EXR, TIFF, PNG, JPEG or camera RAW</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Entfernen</translation>
+    </message>
+    <message>
+        <source>Take this photograph out of the fit</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>remove a photograph</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Photograph</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The file</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Model</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What the lens makes, as far as the fit has come</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Overlay</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Half the photograph, half the model</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Difference</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Residuals: red where the model is too bright, blue where it is too dark; full at 5 σ</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Blink</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Photograph and model in turn</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Licht</translation>
+    </message>
+    <message>
+        <source>Click where the light is</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Box</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Drag boxes over what is not to count</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Lasso</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Draw around what is not to count</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Brush</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Paint over what is not to count</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Erase</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Click a painted region to take it away</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Crop</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Drag over what is to count; a click: all</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Diameter of the brush, pixels of the file</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Mask</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Show what does not count: amber painted, blue about the light, red clipped or hot, dark outside of the crop</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Where the light is: auto, X,Y in pixels from the upper left corner, or deg:FIELD:AZIMUTH; or click it in the photograph</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Find</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The middle of the largest bright patch</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Details</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Where the photograph lies on the sensor, its noise, where it clips, a mask from a file</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>find the photograph&apos;s light</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>add a photograph</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>add photographs</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>reading…</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Add a photograph with a bright light in or near the frame.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>light at %1°</source>
+        <translation type="unfinished"></translation>
+    </message>
 </context>
 <context>
     <name>ghostlight::FitPictureView</name>
@@ -2474,6 +3152,81 @@ Was dabei entsteht, ist eine eigene Stellung; Rückgängig nimmt sie wieder weg.
     </message>
     <message>
         <source>photograph</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Click where the light is</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Drag over what is not to count</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Draw around what is not to count</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Paint over what is not to count</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Click a painted region to take it away</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Drag over what is to count; a click: all</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
+    <name>ghostlight::FitProfilePage</name>
+    <message>
+        <source>Choose numbers and press Profile, or ask for a bootstrap, before the fit starts.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>%1 to %2 %3</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>By its standard error: %1.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>value</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>value, %1</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>χ² above the fit&apos;s</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>by its standard error</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>95 %</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>profile</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>By its profile: %1.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>By the bootstrap: %1, mean %2 ± %3.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>95 % interval. %1</source>
         <translation type="unfinished"></translation>
     </message>
 </context>
@@ -2537,6 +3290,281 @@ Was dabei entsteht, ist eine eigene Stellung; Rückgängig nimmt sie wieder weg.
     </message>
     <message>
         <source>fitted, 95 %</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Determined:</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Weakly known:</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Known by their priors alone:</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Held, as no visible ghost feels them:</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>At a bound:</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>%1 (%2 %)</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Kinds of coating on surface %1, by their odds:</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>&lt;p&gt;&lt;span style=&quot;color:%1&quot;&gt;Combinations that the photographs do not determine, and their width over the prior&apos;s:&lt;/span&gt;&lt;/p&gt;&lt;ul&gt;</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>%1 for %2 residuals; %3 % of the photograph explained (%4 % at the start), %5 % outliers, errors widened × %6</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The photograph that would help most:</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>light at %1°: %2 from ± %3 to ± %4 %5</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Time</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>%1 s, %2 iterations</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Profiles</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Intervals by profile likelihood and bootstrap</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
+    <name>ghostlight::FitVariables</name>
+    <message>
+        <source>What varies</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Ghosts</source>
+        <translation>Reflexe</translation>
+    </message>
+    <message>
+        <source>Which ghosts count, and what the fit made of each</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>change what a fit varies</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>All coatings</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Vary the centre wavelength, or the constant reflectance, of every coated surface</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Marked</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Vary what is marked V in the prescription (Ctrl+M there)</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>KIND@ROWS[=LOWER..UPPER][~PRIOR]; KIND: center, thickness, layer.N, layer-index.N, reflectance, radius, gap, index, semi-diameter, and stop-size, stop-x, stop-y, stop-rotation without rows; ROWS: 3, 2+5 (one common value), all</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Vary this too</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Entfernen</translation>
+    </message>
+    <message>
+        <source>Take the chosen rows out</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Profile</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How χ² rises as the chosen numbers move, all others fitted to each: intervals that need not be symmetric; takes longer. Again: not any more</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>vary %1</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>vary less</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Of the light: D65, A, E, LED, sodium, 3200 K, 550 nm …</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How far samples count that the model cannot explain, such as dust or a lamp beside it</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Least squares</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Every sample counts by its square</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Huber</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Linear beyond the scale</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Cauchy</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Logarithmic beyond the scale</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Tukey</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Nothing beyond the scale</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The loss&apos;s scale, standard deviations of a sample</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Exposures of one scene</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Merge the photographs by their exposure times before the fit, each value weighted by the inverse of its variance</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Suggest the next</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Which photograph would help most: tries other angles of the light in the model; takes longer</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Spectrum</source>
+        <translation>Spektrum</translation>
+    </message>
+    <message>
+        <source>Loss</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Fits to so many photographs drawn from the fitted model and its errors; takes longer</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Bootstrap</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>change the fit&apos;s bootstrap</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>change the fit&apos;s spectrum</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>change the fit&apos;s loss</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>change the loss&apos;s scale</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>the loss&apos;s scale cannot be taken</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>standard deviations above 0</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>merge exposures</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>keep exposures apart</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>suggest photographs</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>suggest no photographs</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>no surface of this lens has a quarter-wave layer or a constant reflectance; vary thickness@all of layer stacks, or coat it first</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>vary all coatings</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>nothing is marked; choose a cell of the prescription and press Ctrl+M</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>vary what is marked</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>want no profile</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>want a profile</source>
         <translation type="unfinished"></translation>
     </message>
 </context>
@@ -2978,10 +4006,6 @@ Gläser zuerst kommen</translation>
         <translation>Nur diese Ebene zeigen; nochmals: alle</translation>
     </message>
     <message>
-        <source>ringing</source>
-        <translation>Ringe</translation>
-    </message>
-    <message>
         <source>Diffraction at the ghosts&apos; rims, where its fringes are a pixel wide or more; at rest</source>
         <translation>Beugung an den Rändern der Reflexe, wo ihre Streifen ein Pixel breit sind oder mehr; in Ruhe</translation>
     </message>
@@ -3024,6 +4048,10 @@ Gläser zuerst kommen</translation>
     <message>
         <source>This Layer Alone</source>
         <translation>Nur diese Ebene</translation>
+    </message>
+    <message>
+        <source>Ringing</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
@@ -3629,6 +4657,13 @@ zurück, und das Ziehen ist ein Schritt der Geschichte. Pfeiltasten gehen um ein
     </message>
 </context>
 <context>
+    <name>ghostlight::PagedPanel</name>
+    <message>
+        <source>Open a lens…</source>
+        <translation>Ein Objektiv öffnen …</translation>
+    </message>
+</context>
+<context>
     <name>ghostlight::PlanPage</name>
     <message>
         <source>nothing</source>
@@ -3647,19 +4682,11 @@ zurück, und das Ziehen ist ein Schritt der Geschichte. Pfeiltasten gehen um ein
         <translation>Reflexe</translation>
     </message>
     <message>
-        <source>At most</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
         <source>Known</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Why</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>What it can change of the picture: L1 over the light on the sensor</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
@@ -3684,6 +4711,26 @@ zurück, und das Ziehen ist ein Schritt der Geschichte. Pfeiltasten gehen um ein
     </message>
     <message>
         <source> The true error is %1, by a reference whose two samplings differ by %2.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Changes</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What it can change of the picture: L1 over the light on the sensor. ≤ at most, by a proof; ≈ by the plan&apos;s own estimate, good to a factor of two</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>All of these: at most %1 proven, and about %2 estimated (good to a factor of two).</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>All of these: about %1, estimated (good to a factor of two).</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source> Rows with – are not in it.</source>
         <translation type="unfinished"></translation>
     </message>
 </context>
@@ -4103,6 +5150,14 @@ Die Schranke von %3 der %4 Reflexe liegt in ihrem Anteil an 0.1 %; für die ande
     <message>
         <source>as on file</source>
         <translation>wie in der Datei</translation>
+    </message>
+    <message>
+        <source>first look, off by about *%1 %*</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Each ghost from a few rays about its own centre ray, to see something at once. The error is estimated from those rays; light that enters elsewhere is not in it.</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
