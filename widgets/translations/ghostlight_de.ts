@@ -5151,14 +5151,6 @@ Die Schranke von %3 der %4 Reflexe liegt in ihrem Anteil an 0.1 %; für die ande
         <source>as on file</source>
         <translation>wie in der Datei</translation>
     </message>
-    <message>
-        <source>first look, off by about *%1 %*</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
-        <source>Each ghost from a few rays about its own centre ray, to see something at once. The error is estimated from those rays; light that enters elsewhere is not in it.</source>
-        <translation type="unfinished"></translation>
-    </message>
 </context>
 <context>
     <name>ghostlight::StopPanel</name>
