@@ -169,6 +169,8 @@ std::vector<FitMinimum> CoatingSearch::explore(const FitMinimum& from, double ma
                                                const std::stop_token& stop,
                                                const std::function<void()>& tell) {
     FitMinimum best = descend_all({from.x}, last_iterations, stop).front();
+    // What was stopped has no points to compare.
+    if (stop.stop_requested()) return {from};
     std::vector<FitMinimum> others;
     auto by_cost = [](const FitMinimum& m) { return m.cost; };
     auto points_of = [](const std::vector<FitMinimum>& minima) {
@@ -178,6 +180,7 @@ std::vector<FitMinimum> CoatingSearch::explore(const FitMinimum& from, double ma
     };
     for (int round = 0; round < most_rounds && !stop.stop_requested(); ++round) {
         auto found = descend_all(neighbours(best.x), first_iterations, stop);
+        if (stop.stop_requested()) return {best};
         for (const auto& [count, iterations] :
              {std::pair{second_count, second_iterations}, std::pair{last_count, last_iterations}}) {
             std::ranges::stable_sort(found, {}, by_cost);
@@ -193,6 +196,7 @@ std::vector<FitMinimum> CoatingSearch::explore(const FitMinimum& from, double ma
                 break;
             }
             found = descend_all(points_of(kept), iterations, stop);
+            if (stop.stop_requested()) return {best};
         }
         std::ranges::stable_sort(found, {}, by_cost);
         others.insert(others.end(), found.begin(), found.end());

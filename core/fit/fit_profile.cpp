@@ -151,8 +151,9 @@ void FitRun::bootstrap(FitReport& report) {
             const auto width = static_cast<std::size_t>(view.data.frame.width_px),
                        height = static_cast<std::size_t>(view.data.frame.height_px);
             for (const ModelPicture& ghost : ghosts[i]) {
-                const double by_x = place_error * normal(random),
-                             by_y = place_error * normal(random);
+                // As the errors have it: places matter where geometry is fitted.
+                const double place = layout_.geometry.empty() ? 0.0 : place_error;
+                const double by_x = place * normal(random), by_y = place * normal(random);
                 for (std::size_t c = 0; c < 3; ++c) {
                     const double by = off * normal(random), gain = evaluator_->gain(i, c);
                     for (std::size_t y = 1; y + 1 < height; ++y)

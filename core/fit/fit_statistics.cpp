@@ -131,7 +131,8 @@ FitInformation information(const FitEvaluator& evaluator, FitLoss loss, double l
                 info.spread.noalias() += off * off * moved * moved.transpose();
             }
         }
-        // And so may its place and its size, in all channels together.
+        // And so may its place and its size, in all channels together: what geometry is fitted by.
+        if (evaluator.layout().geometry.empty()) continue;
         for (const Eigen::VectorXd& moved : places)
             info.spread.noalias() += place_error * place_error * moved * moved.transpose();
     }

@@ -213,8 +213,9 @@ bool FitRun::choose_kinds() {
                 others += fmt::format("{}{} ({:.2g} % of the odds)", others.empty() ? "" : ", ",
                                       each.tried[k].name, 100.0 * each.tried[k].share);
         report_.remarks.push_back(fmt::format(
-            "Coating of surface {}: {}, {:.3g} % of the odds{}.", each.row + 1,
-            each.tried.front().name, 100.0 * each.tried.front().share,
+            "Coating of surface {}: {}, {:.3g} % of the odds as long as the other surfaces' kinds "
+            "are right{}.",
+            each.row + 1, each.tried.front().name, 100.0 * each.tried.front().share,
             each.tried.front().share >= known_share
                 ? (each.tried.size() > 1 ? fmt::format(", {} next with a BIC {:.3g} higher",
                                                        each.tried[1].name, each.tried[1].bic_above)

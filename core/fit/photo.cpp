@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <map>
 #include <queue>
 
 namespace ghostlight {
@@ -190,21 +192,36 @@ Photo merged(const std::vector<Photo>& exposures) {
     // value: it stays the brightest, and clipped, for find_light().
     const double longest_scale = longest_s / *shortest->exposure_s;
     sum.saturation = longest_scale * shortest->saturation;
-    double shot = 0.0, read = 0.0;
+    double read = 0.0;
+    // How many pixels come from which exposures, one bit each.
+    std::map<std::uint64_t, std::size_t> sources;
     for (std::size_t i = 0; i < sum.pixels(); ++i) {
-        std::array<double, 3> total{}, weights{};
+        std::array<double, 3> total{}, weights{}, pooled{};
+        double time = 0.0;
         for (const Photo& each : exposures) {
             if (!each.masked.empty() && each.masked[i]) continue;
+            time += *each.exposure_s / longest_s;
+            for (std::size_t c = 0; c < 3; ++c)
+                pooled[c] += static_cast<double>(each.rgb[3 * i + c]);
+        }
+        std::uint64_t from = 0;
+        for (std::size_t k = 0; k < exposures.size(); ++k) {
+            const Photo& each = exposures[k];
+            if (!each.masked.empty() && each.masked[i]) continue;
+            from |= std::uint64_t{1} << (k % 64);
             const double scale = longest_s / *each.exposure_s;
             for (std::size_t c = 0; c < 3; ++c) {
                 const double value = each.rgb[3 * i + c];
+                // Of what all of them say: by its own noise each would weigh its low values more.
+                const double expected = std::max(0.0, pooled[c] / time) / scale;
                 const double variance =
-                    scale * scale * (each.noise.shot * std::max(0.0, value) + each.noise.read);
+                    scale * scale * (each.noise.shot * expected + each.noise.read);
                 const double w = 1.0 / std::max(variance, 1e-30);
                 total[c] += w * scale * value;
                 weights[c] += w;
             }
         }
+        ++sources[from];
         sum.masked.resize(sum.pixels(), 0);
         sum.masked[i] = weights[0] > 0.0 ? char{0} : shortest->masked[i];
         for (std::size_t c = 0; c < 3; ++c)
@@ -212,14 +229,28 @@ Photo merged(const std::vector<Photo>& exposures) {
                 static_cast<float>(weights[c] > 0.0 ? total[c] / weights[c]
                                                     : longest_scale * shortest->rgb[3 * i + c]);
     }
-    // In the dim parts, which is most of a flare, all exposures count.
+    // In the dim parts, where reading decides, all exposures count. Shot noise decides in the
+    // bright ones, where the longer exposures clip: that of the fewest photons that make up a
+    // hundredth of the picture stands for all, so that no part is thought better known than it is.
     for (const Photo& each : exposures) {
         const double scale = longest_s / *each.exposure_s;
-        shot += 1.0 / std::max(scale * each.noise.shot, 1e-30);
         read += 1.0 / std::max(scale * scale * each.noise.read, 1e-30);
     }
-    sum.noise = {
-        .shot = 1.0 / shot, .read = 1.0 / read, .estimated = exposures.front().noise.estimated};
+    sources.erase(0);
+    std::size_t usable = 0;
+    for (const auto& [from, pixels] : sources) usable += pixels;
+    double shot = 0.0;
+    for (const auto& [from, pixels] : sources) {
+        if (100 * pixels < usable) continue;
+        double light = 0.0;
+        for (std::size_t k = 0; k < exposures.size(); ++k)
+            if ((from >> (k % 64)) & 1U)
+                light +=
+                    1.0 /
+                    std::max(longest_s / *exposures[k].exposure_s * exposures[k].noise.shot, 1e-30);
+        shot = std::max(shot, 1.0 / light);
+    }
+    sum.noise = {.shot = shot, .read = 1.0 / read, .estimated = exposures.front().noise.estimated};
     sum.exposure_s = longest_s;
     return sum;
 }

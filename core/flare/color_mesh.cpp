@@ -378,7 +378,8 @@ class Builder {
     }
 
     static double contrast_of(const Point& a, const Point& b, const Plane<C>& value) {
-        return std::hypot(b.x - a.x, b.y - a.y) *
+        const double x = b.x - a.x, y = b.y - a.y;
+        return std::sqrt(x * x + y * y) *
                std::abs(value.at(C - 1, {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}));
     }
 

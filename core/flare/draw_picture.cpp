@@ -117,6 +117,25 @@ bool LevelPictures<C>::add(const std::vector<DrawnGhost<C>>& ghosts, unsigned th
 }
 
 template <int C>
+void LevelPictures<C>::bring_up(int level, std::size_t band) {
+    if (level >= coarsest_) return;
+    const RasterSize size = level_size(frame_, level);
+    const int first = static_cast<int>(band) * band_rows;
+    add_coarser_rows<C>(levels_[static_cast<std::size_t>(level) + 1], level_size(frame_, level + 1),
+                        size, first, std::min(first + band_rows, size.height_px),
+                        levels_[static_cast<std::size_t>(level)]);
+}
+
+template <int C>
+bool LevelPictures<C>::bring_up_to(int last, unsigned threads, const std::stop_token& stop) {
+    for (int level = coarsest_ - 1; level >= last; --level)
+        if (!parallel_for(static_cast<std::size_t>(band_count(level_size(frame_, level))), threads,
+                          stop, [&](std::size_t band) { bring_up(level, band); }))
+            return false;
+    return true;
+}
+
+template <int C>
 std::vector<float>& LevelPictures<C>::level(int level) {
     coarsest_ = std::max(coarsest_, level);
     return levels_[static_cast<std::size_t>(level)];
@@ -127,17 +146,7 @@ std::optional<std::vector<float>> LevelPictures<C>::take(unsigned threads,
                                                          const std::stop_token& stop,
                                                          FlareTimes& times) {
     const auto composed = Clock::now();
-    for (int level = coarsest_ - 1; level >= 0; --level) {
-        const RasterSize size = level_size(frame_, level), coarser = level_size(frame_, level + 1);
-        std::vector<float>& picture = levels_[static_cast<std::size_t>(level)];
-        const bool finished = parallel_for(
-            static_cast<std::size_t>(band_count(size)), threads, stop, [&](std::size_t b) {
-                const int first = static_cast<int>(b) * band_rows;
-                add_coarser_rows<C>(levels_[static_cast<std::size_t>(level) + 1], coarser, size,
-                                    first, std::min(first + band_rows, size.height_px), picture);
-            });
-        if (!finished) return std::nullopt;
-    }
+    if (!bring_up_to(0, threads, stop)) return std::nullopt;
     times.composite_ms += ms_since(composed);
     return std::move(levels_[0]);
 }
@@ -153,25 +162,32 @@ FlareImage empty_image(const OpticalSystem& system, const PixelFrame& frame) {
 
 template <int C>
 bool LevelPictures<C>::finish(unsigned threads, const std::stop_token& stop, FlareImage& image) {
-    const auto picture = take(threads, stop, image.times);
-    if (!picture) return false;
     const auto composed = Clock::now();
     const auto width = static_cast<std::size_t>(frame_.width_px);
     const auto height = static_cast<std::size_t>(frame_.height_px);
-    image.irradiance.resize(width * height);
-    image.rgb.resize(3 * width * height);
+    // Clearing as much memory takes as long as filling it.
+    parallel_for(2, threads, {}, [&](std::size_t k) {
+        k == 0 ? image.rgb.resize(3 * width * height) : image.irradiance.resize(width * height);
+    });
+    if (!bring_up_to(1, threads, stop)) return false;
     std::vector<double> row_sums(height, 0.0);
-    const bool finished = parallel_for(height, threads, stop, [&](std::size_t row) {
-        double sum = 0.0;
-        for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
-            // What rounding leaves below zero is no light; colours outside the gamut stay.
-            const float* from = picture->data() + i * C;
-            image.irradiance[i] = std::max(0.0F, from[C - 1]);
-            for (std::size_t c = 0; c < 3; ++c)
-                image.rgb[3 * i + c] = C == 1 ? image.irradiance[i] : from[c];
-            sum += static_cast<double>(image.irradiance[i]);
+    // The last step band by band, while what has been brought up is still at hand.
+    const auto bands = static_cast<std::size_t>(band_count(level_size(frame_, 0)));
+    const bool finished = parallel_for(bands, threads, stop, [&](std::size_t band) {
+        bring_up(0, band);
+        const std::size_t first = band * band_rows;
+        for (std::size_t row = first; row < std::min(first + band_rows, height); ++row) {
+            double sum = 0.0;
+            for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
+                // What rounding leaves below zero is no light; colours outside the gamut stay.
+                const float* from = levels_[0].data() + i * C;
+                image.irradiance[i] = std::max(0.0F, from[C - 1]);
+                for (std::size_t c = 0; c < 3; ++c)
+                    image.rgb[3 * i + c] = C == 1 ? image.irradiance[i] : from[c];
+                sum += static_cast<double>(image.irradiance[i]);
+            }
+            row_sums[row] = sum;
         }
-        row_sums[row] = sum;
     });
     for (const double sum : row_sums) image.flux_on_sensor_mm2 += sum * frame_.pixel_area_mm2();
     image.times.composite_ms += ms_since(composed);

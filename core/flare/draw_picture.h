@@ -41,6 +41,11 @@ class LevelPictures {
     PixelFrame frame_;
     int coarsest_ = 0;
     std::vector<std::vector<float>> levels_;
+
+    /// Adds the next coarser level, complete, to a band of rows.
+    void bring_up(int level, std::size_t band);
+    /// All levels from the coarsest down to `last`. False when stopped.
+    bool bring_up_to(int last, unsigned threads, const std::stop_token& stop);
 };
 
 /// Draws ghosts into rgb, irradiance, flux on the sensor and the times of raster and composite.

@@ -34,7 +34,9 @@ std::vector<float> cosines_in(double n, double main_n, const std::vector<float>&
 
 FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threads,
                        CoatingModel model, const OpticalSystem* main)
-    : stride_((systems.size() + film_padding - 1) / film_padding * film_padding),
+    : stride_(systems.size() == 1
+                  ? 1
+                  : (systems.size() + film_padding - 1) / film_padding * film_padding),
       surfaces_(turning_count(systems.front())) {
     const std::size_t table_size = static_cast<std::size_t>(nodes) * stride_;
     values_.assign(surfaces_ * tables_per_surface * table_size, 0.0F);

@@ -27,7 +27,7 @@ class FilmTables {
     FilmTables(const std::vector<OpticalSystem>& systems, unsigned threads,
                CoatingModel model = CoatingModel::exact, const OpticalSystem* main = nullptr);
 
-    /// Wavelengths, padded; those that were given come first.
+    /// Wavelengths, more than one padded; those that were given come first.
     std::size_t stride() const { return stride_; }
 
     /// Weights of every ray of a bundle that kept its cosines, `stride()` values a ray. What glass

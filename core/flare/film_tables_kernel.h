@@ -28,7 +28,7 @@ struct SpectralWeightsView {
     std::size_t stride, step_count, count;
     const float* const* tables;  ///< of each step: node by node, `wavelengths` values each
     int nodes;
-    std::size_t wavelengths;  ///< a multiple of `film_padding`
+    std::size_t wavelengths;  ///< 1, or a multiple of `film_padding`
     float* weights;           ///< ray by ray, `wavelengths` values each
 };
 

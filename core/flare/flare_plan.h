@@ -30,6 +30,14 @@ struct GhostSpot {
     std::array<double, 2> sigmas_mm() const;
 };
 
+/// What the first look at a ghost spares a picture for a light close by.
+struct FirstLook {
+    PupilBox box;               ///< of the nodes that pass, with a cell to spare
+    double cells_wanted = 0.0;  ///< across the box, by the first look's errors; 0: not known
+    double shift_px = 0.0;      ///< between the outer geometry wavelengths
+    bool in_double = false;     ///< single precision moves its rays by what shows
+};
+
 /// How one ghost of a picture is drawn, and what that costs. Fluxes are over E0, mm².
 struct PlannedGhost {
     GhostPath path;
@@ -45,6 +53,7 @@ struct PlannedGhost {
     double error_mm2 = 0.0;      ///< estimated L1 error of its picture
     double bound_mm2 = 0.0;      ///< of the light through its box: what leaving it out may cost
     std::size_t rays = 0;
+    FirstLook look;
 };
 
 /// What is drawn for a tolerance, how finely, and what is left out.

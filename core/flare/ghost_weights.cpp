@@ -10,9 +10,10 @@
 namespace ghostlight {
 namespace {
 
+constexpr int few_cells = 4;  ///< where more error is allowed than least_error
 constexpr int polarised_cells = 6;
 constexpr int closer_cells = 12;      ///< where few of those rays are valid
-constexpr std::size_t few_valid = 8;  ///< of 28
+constexpr std::size_t few_valid = 4;  ///< one of so many
 constexpr double least_error = 1e-3;  ///< of the light: more is looked at more closely
 /// Where films give hardly any light at one wavelength's angles, ratios mean nothing.
 constexpr float least_color_ratio = 0.25F, most_color_ratio = 4.0F;
@@ -36,10 +37,12 @@ std::vector<char> beside_light(const MirrorGrid& grid) {
 }  // namespace
 
 PolarisedShare polarised_share(const FlareScene& scene, const TracePath<float>& path,
-                               const BeamFrame& beam, const PupilBox& box) {
+                               const BeamFrame& beam, const PupilBox& box, double allowed_error) {
     PolarisedShare result;
     if (scene.coating_model != CoatingModel::exact) return result;
-    for (const int cells : {polarised_cells, closer_cells}) {
+    const double allowed = std::max(least_error, allowed_error);
+    for (const int cells : {few_cells, polarised_cells, closer_cells}) {
+        if (cells == few_cells && !(allowed > least_error)) continue;
         result.grid.box = box;
         result.grid.cells = cells;
         result.grid.half.keep_cosines = !scene.is_gray();
@@ -58,7 +61,7 @@ PolarisedShare polarised_share(const FlareScene& scene, const TracePath<float>& 
         for (std::size_t k = 0; k < rays.size(); ++k)
             if (rays.margin[k] < 0.0F || !(rays.weight_average[k] > 0.0F)) result.ratio[k] = mean;
         result.error = roughness(result.grid, result.ratio);
-        if (valid >= few_valid && result.error < least_error) break;
+        if (few_valid * valid >= rays.size() && result.error < allowed) break;
     }
     return result;
 }

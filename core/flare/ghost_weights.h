@@ -17,7 +17,8 @@ struct PolarisedShare {
     double error = 0.0;        ///< estimated, of interpolating it: a share of the light
 };
 PolarisedShare polarised_share(const FlareScene& scene, const TracePath<float>& path,
-                               const BeamFrame& beam, const PupilBox& box);
+                               const BeamFrame& beam, const PupilBox& box,
+                               double allowed_error = 0.0);
 
 /// What other wavelengths do to a path's weights beyond their own films: their rays meet the
 /// surfaces at other angles, known from rays of the outer geometry wavelengths and interpolated

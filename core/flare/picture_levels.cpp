@@ -25,16 +25,18 @@ double blur_px2(int level) {
 
 namespace {
 
-/// The two coarser pixels that a finer one lies between.
+/// The two coarser pixels that a finer one lies between: it lies a quarter of their distance from
+/// the nearer one.
 struct Between {
     int low, high;
     float share_high;
 };
 Between between(int fine, int fine_margin, int coarse_margin, int coarse_count) {
-    const double at = (fine - fine_margin + 0.5) / 2.0 + coarse_margin - 0.5;
-    const int low = static_cast<int>(std::floor(at));
+    // Its middle is at (2 n − 1) / 4 coarser pixels from the middle of the first.
+    const int n = fine - fine_margin + 2 * coarse_margin;
+    const int low = (n - 1) >> 1;
     return {std::clamp(low, 0, coarse_count - 1), std::clamp(low + 1, 0, coarse_count - 1),
-            static_cast<float>(at - low)};
+            n % 2 == 0 ? 0.75F : 0.25F};
 }
 
 }  // namespace
@@ -44,10 +46,6 @@ void add_coarser_rows(const std::vector<float>& coarser, const RasterSize& coars
                       const RasterSize& finer_size, int first_row, int last_row,
                       std::vector<float>& finer) {
     const std::size_t stride = static_cast<std::size_t>(coarser_size.width_px) * C;
-    std::vector<Between> columns;
-    for (int column = 0; column < finer_size.width_px; ++column)
-        columns.push_back(
-            between(column, finer_size.margin_px, coarser_size.margin_px, coarser_size.width_px));
     std::vector<float> mixed(stride);
     for (int row = first_row; row < last_row; ++row) {
         const Between rows =
@@ -58,7 +56,9 @@ void add_coarser_rows(const std::vector<float>& coarser, const RasterSize& coars
             mixed[i] = below[i] + rows.share_high * (above[i] - below[i]);
         float* to = finer.data() + static_cast<std::size_t>(row) *
                                        static_cast<std::size_t>(finer_size.width_px * C);
-        for (const Between& at : columns) {
+        for (int column = 0; column < finer_size.width_px; ++column) {
+            const Between at = between(column, finer_size.margin_px, coarser_size.margin_px,
+                                       coarser_size.width_px);
             const float* a = mixed.data() + at.low * C;
             const float* b = mixed.data() + at.high * C;
             for (int c = 0; c < C; ++c) to[c] += a[c] + at.share_high * (b[c] - a[c]);

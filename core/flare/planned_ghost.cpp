@@ -26,6 +26,8 @@ constexpr int split_cells = 4;  ///< across a singular cell
 /// may.
 constexpr double polarised_share_of_weight = 0.3;
 constexpr int most_rough_cells = 96;  ///< for the weights' sake
+/// One of so many nodes of a probe is to pass, for fewer of them to be enough.
+constexpr std::size_t share_passing = 4;
 
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 
@@ -191,6 +193,7 @@ GhostPlanner::Fineness GhostPlanner::choose(const ProbedGhost& ghost) const {
     auto allowed = [&](double share) { return unsaturated(share * spread, flux); };
 
     Fineness chosen;
+    const int probe = ghost.grid.cells;
     // Cells below half a pixel show nothing more. An even number of them, for mirror symmetry.
     const int finest = std::clamp(4 * static_cast<int>(0.5 * std::sqrt(first.area_px2)),
                                   2 * first.cells, finest_cells);
@@ -209,7 +212,7 @@ GhostPlanner::Fineness GhostPlanner::choose(const ProbedGhost& ghost) const {
     if (chosen.rough)
         chosen.cells = std::max(
             chosen.cells,
-            std::min(most_rough_cells, cells_for(probe_cells, first.weight_mm2, weight_allowed)));
+            std::min(most_rough_cells, cells_for(probe, first.weight_mm2, weight_allowed)));
     chosen.polarised =
         chosen.rough && ghost.polarised.error * flux > polarised_share_of_weight * weight_allowed;
     auto fallen = [](double error, int from, int to) {
@@ -219,12 +222,17 @@ GhostPlanner::Fineness GhostPlanner::choose(const ProbedGhost& ghost) const {
     const double shrunk = static_cast<double>(first.cells) / chosen.cells;
     const double singular_mm2 = first.singular_mm2 * shrunk * std::sqrt(shrunk);
     chosen.split = economies_.split_edges && singular_mm2 > singular_share * spread;
-    chosen.error_mm2 =
-        saturated(fallen(first.grid_mm2, first.cells, chosen.cells), flux) +
-        saturated(fallen(first.merging_mm2, 1, chosen.bands), flux) +
-        std::min(flux, chosen.rough ? fallen(first.weight_mm2, probe_cells, chosen.cells)
-                                    : first.weight_mm2) +
-        (chosen.split ? 0.0 : std::min(flux, singular_mm2));
+    chosen.error_mm2 = saturated(fallen(first.grid_mm2, first.cells, chosen.cells), flux) +
+                       saturated(fallen(first.merging_mm2, 1, chosen.bands), flux) +
+                       std::min(flux, chosen.rough ? fallen(first.weight_mm2, probe, chosen.cells)
+                                                   : first.weight_mm2) +
+                       (chosen.split ? 0.0 : std::min(flux, singular_mm2));
+    // What a probe of fewer nodes would say of a ghost that few of these pass is worth little.
+    if (ghost.passing * share_passing >= idx(probe * probe) && !chosen.split)
+        chosen.cells_wanted =
+            std::max({first.cells * std::sqrt(first.grid_mm2 / allowed(grid_share)),
+                      probe * std::sqrt(first.weight_mm2 / weight_allowed),
+                      first.cells * std::pow(singular_mm2 / (singular_share * spread), 2.0 / 3.0)});
     return chosen;
 }
 
@@ -253,16 +261,17 @@ template <int C>
 void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
     PlannedGhost& planned = ghost.planned;
     const Fineness chosen = choose(ghost);
-    const auto [cells, bands, rough, polarised, split, error_mm2] = chosen;
+    const auto [cells, bands, rough, polarised, split, error_mm2, cells_wanted] = chosen;
     planned.cells = cells;
     planned.bands = bands;
+    planned.look.cells_wanted = cells_wanted;
 
     const MirrorGrid& probe = ghost.grid;
     std::vector<MirrorGrid> finer;
     std::vector<const MirrorGrid*> geometry;
     for (std::size_t g = 0; g < scene_.geometry.size(); ++g)
         if (bands > 1 || g == scene_.main) {
-            const bool is_probe = g == scene_.main && cells == probe_cells;
+            const bool is_probe = g == scene_.main && cells == probe.cells;
             if (!is_probe)
                 finer.push_back(
                     traced(ghost, g, cells, rough && g == scene_.main,
@@ -272,9 +281,9 @@ void GhostPlanner::draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const {
     auto next = finer.begin();
     for (std::size_t g = 0; g < scene_.geometry.size(); ++g)
         if (bands > 1 || g == scene_.main)
-            geometry.push_back(g == scene_.main && cells == probe_cells ? &probe : &*next++);
+            geometry.push_back(g == scene_.main && cells == probe.cells ? &probe : &*next++);
     const MirrorGrid& main = geometry.size() == 1 ? *geometry.front() : *geometry[scene_.main];
-    if (rough && cells != probe_cells)
+    if (rough && cells != probe.cells)
         draw_grids(geometry, main,
                    ghost_weights(scene_, trace_path<float>(scene_.system(), planned.path), main,
                                  ghost.polarised, ghost.colors),
@@ -303,14 +312,15 @@ GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
                                     planned.flux_mm2 > split_above * planned.allowance_mm2);
     planned.cells = chosen.cells;
     planned.bands = chosen.bands;
+    planned.look.cells_wanted = chosen.cells_wanted;
     choose_level(chosen, ghost.errors.contrast_mm2, ghost.errors.slopes_mm2, planned);
 
     GhostDrawing drawing;
     const MirrorGrid& probe = ghost.grid;
-    const bool own_weights = chosen.rough && planned.cells != probe_cells;
+    const bool own_weights = chosen.rough && planned.cells != probe.cells;
     MirrorGrid fine;
     std::vector<float> fine_weights;
-    if (planned.cells != probe_cells && (own_weights || chosen.split)) {
+    if (planned.cells != probe.cells && (own_weights || chosen.split)) {
         fine = traced(ghost, scene_.main, planned.cells, own_weights,
                       chosen.polarised ? Weights::polarised : Weights::none);
         planned.rays += fine.half.size() + fine.other.size();
@@ -325,7 +335,7 @@ GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
                                          channel_shares<color_channels>(scene_, band, bands));
     };
     if (chosen.split) {
-        const MirrorGrid& grid = planned.cells == probe_cells ? probe : fine;
+        const MirrorGrid& grid = planned.cells == probe.cells ? probe : fine;
         drawing.singular = singular_cells(grid, placement_.place(grid));
         drawing.singular_across = split_cells;
         drawing.singular_light =

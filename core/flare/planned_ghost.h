@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/flare/color_mesh.h"
@@ -30,18 +31,20 @@ struct FirstErrors {
 struct ProbedGhost {
     PlannedGhost planned;
     FirstErrors errors;
-    MirrorGrid grid;             ///< the probe, at the main geometry wavelength, with its cosines
-    std::size_t passing = 0;     ///< of its nodes
-    PolarisedShare polarised;    ///< over the box
-    std::vector<float> colors;   ///< ColorShare::ratio
+    MirrorGrid grid;            ///< the probe, at the main geometry wavelength, with its cosines
+    std::size_t passing = 0;    ///< of its nodes
+    PolarisedShare polarised;   ///< over the box
+    std::vector<float> colors;  ///< ColorShare::ratio
+    /// What a plan nearby knew, where its box still holds.
+    std::optional<PlannedGhost> nearby;
     std::vector<float> weights;  ///< of the probe's half grid, FilmTables::stride() a ray
     /// Single precision moves its rays by more than is_ill_conditioned() allows (path_stability.h):
     /// it is traced in double.
     bool in_double = false;
 };
 
-/// Cells across a probe.
-inline constexpr int probe_cells = 12;
+/// Cells across a probe, and across that of a ghost for which a plan nearby found these enough.
+inline constexpr int probe_cells = 12, few_probe_cells = 8;
 
 /// Plans and draws one ghost after another; holds what they share. Threads may use it together.
 class GhostPlanner {
@@ -53,6 +56,7 @@ class GhostPlanner {
     /// Finds where it enters, and a bound of its light. With a plan for a light nearby (or a lens
     /// slightly other), what that found is looked at first.
     ProbedGhost find(const GhostPath& path, const PlannedGhost* nearby = nullptr) const;
+    ProbedGhost find(const GhostPath& path, const PlannedGhost* nearby, ProbeSearch search) const;
     /// Then its light, and what a first drawing of it gets wrong.
     void weigh(ProbedGhost& ghost) const;
     /// Both.
@@ -88,6 +92,7 @@ class GhostPlanner {
         bool polarised = false;  ///< and polarisation with them
         bool split = false;      ///< singular cells get grids of their own
         double error_mm2 = 0.0;
+        double cells_wanted = 0.0;  ///< even where the probe has more of them
     };
 
     const FlareScene& scene_;

@@ -33,8 +33,7 @@ constexpr std::size_t search_anew_every = 8;
 const PlannedGhost* nearby_of(const FlareRequest& request, std::size_t g, const GhostPath& path) {
     if (!request.nearby || g >= request.nearby->ghosts.size()) return nullptr;
     const PlannedGhost& nearby = request.nearby->ghosts[g];
-    const bool anew = (g + static_cast<std::size_t>(request.turn)) % search_anew_every == 0;
-    return anew || nearby.path != path ? nullptr : &nearby;
+    return nearby.path != path ? nullptr : &nearby;
 }
 
 /// The ghosts that are found, by falling bound.
@@ -82,7 +81,12 @@ std::optional<std::vector<ProbedGhost>> probe_all(const FlareScene& scene,
     const std::vector<GhostPath>& paths = request.only.empty() ? scene.ghosts : request.only;
     std::vector<ProbedGhost> ghosts(paths.size());
     const bool found = parallel_for(ghosts.size(), request.threads, stop, [&](std::size_t g) {
-        ghosts[g] = planner.find(paths[g], nearby_of(request, g, paths[g]));
+        const PlannedGhost* nearby = nearby_of(request, g, paths[g]);
+        const bool anew = (g + static_cast<std::size_t>(request.turn)) % search_anew_every == 0;
+        // Searched for well then: it serves the next pictures, too.
+        ghosts[g] = nearby != nullptr && anew
+                        ? planner.find(paths[g], nullptr, ProbeSearch::careful)
+                        : planner.find(paths[g], nearby);
     });
     if (!found) return std::nullopt;
 

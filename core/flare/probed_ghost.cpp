@@ -16,7 +16,11 @@ namespace {
 constexpr int close_cells = 48;           ///< where hardly a ray of a probe passes
 constexpr std::size_t few_passing = 12;   ///< of a probe's nodes
 constexpr std::size_t compared_rays = 8;  ///< of a probe, with double precision
-constexpr int shift_cells = 6;            ///< of the grids that lateral colour is measured on
+/// Cells that a plan nearby wants, for fewer of them to be enough.
+constexpr double few_enough = 6.5;
+/// Of a ghost's allowance, for interpolating polarisation.
+constexpr double polarised_allowed = 0.02;
+constexpr int shift_cells = 6;  ///< of the grids that lateral colour is measured on
 /// Of the light in singular cells: a root drawn as a line is off by as much, over a cell.
 constexpr double singular_factor = 0.3;
 /// Of the shift between the outer geometry wavelengths times the contrast: most of the light lies
@@ -67,16 +71,26 @@ void GhostPlanner::trace_other_half(const ProbedGhost& ghost, std::size_t node, 
 /// probe is traced anew, and all that follows in double.
 void GhostPlanner::mind_rounding(ProbedGhost& ghost) const {
     const OpticalSystem& system = scene_.system();
-    PathStability seen;
-    seen.position_worst_mm =
-        float_displacement_mm(system, ghost.planned.path, beam_, ghost.grid.half, compared_rays);
-    ghost.in_double = is_ill_conditioned(seen, system.sensor_width_mm);
+    if (ghost.nearby) {
+        ghost.in_double = ghost.nearby->look.in_double;
+    } else {
+        PathStability seen;
+        seen.position_worst_mm = float_displacement_mm(system, ghost.planned.path, beam_,
+                                                       ghost.grid.half, compared_rays);
+        ghost.in_double = is_ill_conditioned(seen, system.sensor_width_mm);
+    }
+    ghost.planned.look.in_double = ghost.in_double;
     if (!ghost.in_double) return;
     trace(ghost, scene_.main, Weights::none, ghost.grid.half);
     ghost.planned.rays += ghost.grid.half.size();
 }
 
 ProbedGhost GhostPlanner::find(const GhostPath& path, const PlannedGhost* nearby) const {
+    return find(path, nearby, search_);
+}
+
+ProbedGhost GhostPlanner::find(const GhostPath& path, const PlannedGhost* nearby,
+                               ProbeSearch search) const {
     ProbedGhost result;
     PlannedGhost& planned = result.planned;
     planned.path = path;
@@ -85,9 +99,14 @@ ProbedGhost GhostPlanner::find(const GhostPath& path, const PlannedGhost* nearby
         return result;
     }
     const auto trace = trace_path<float>(scene_.system(), path);
-    GhostProbe probe = probe_ghost(scene_.system(), trace, beam_, entrance_, probe_cells, search_,
-                                   nearby != nullptr ? &nearby->box : nullptr);
+    const bool few = nearby != nullptr && search == ProbeSearch::quick &&
+                     nearby->look.cells_wanted > 0.0 && nearby->look.cells_wanted < few_enough;
+    GhostProbe probe =
+        probe_ghost(scene_.system(), trace, beam_, entrance_, few ? few_probe_cells : probe_cells,
+                    search, nearby != nullptr ? &nearby->look.box : nullptr);
     planned.rays = probe.rays;
+    planned.look.box = probe.passing_box;
+    if (probe.served) result.nearby = *nearby;
     if (probe.empty) {
         planned.fate = GhostFate::nothing_passes;
         return result;
@@ -108,7 +127,12 @@ void GhostPlanner::weigh(ProbedGhost& ghost) const {
         trace_other_half(ghost, scene_.main, Weights::none, ghost.grid);
         planned.rays += ghost.grid.other.size();
     }
-    ghost.polarised = polarised_share(scene_, trace, beam_, planned.box);
+    // What polarisation may be off by without being seen, where that is known.
+    const double allowed =
+        ghost.nearby && ghost.nearby->flux_mm2 > 0.0
+            ? polarised_allowed * ghost.nearby->allowance_mm2 / ghost.nearby->flux_mm2
+            : 0.0;
+    ghost.polarised = polarised_share(scene_, trace, beam_, planned.box, allowed);
     ColorShare colors = color_share(scene_, planned.path, beam_, ghost.polarised);
     ghost.weights = ghost_weights(scene_, trace, ghost.grid, ghost.polarised, colors.ratio);
     planned.rays +=
@@ -179,8 +203,12 @@ void GhostPlanner::look(const MirrorGrid& first, const MeshNodes& nodes, const C
     // The error of a bilinear map falls fourfold on doubling the grid.
     errors.grid_mm2 =
         contrast * (grid_factor * bend_px(nodes, frame) + rim_factor * rim_px(nodes, frame));
-    if (scene_.geometry.size() > 1)
-        errors.merging_mm2 = merging_factor * contrast * shift_of_colors_px(ghost, colors);
+    if (scene_.geometry.size() > 1) {
+        double& shift_px = ghost.planned.look.shift_px;
+        shift_px = ghost.nearby ? ghost.nearby->look.shift_px : 0.0;
+        if (!(shift_px > 0.0)) shift_px = shift_of_colors_px(ghost, colors);
+        errors.merging_mm2 = merging_factor * contrast * shift_px;
+    }
     errors.weight_mm2 = ghost.planned.flux_mm2 *
                         roughness(ghost.grid, ray_light<gray_channels>(
                                                   scene_, ghost.grid, ghost.weights,

@@ -54,47 +54,56 @@ namespace ghostlight::GHOSTLIGHT_JOIN(kernels_, GHOSTLIGHT_ISA) {
         margin = select(margin < V(Lane<V>(0)), margin, smaller(margin, next));
     }
 
-    template <int mode, class T>
+    /// What is the same for all packets of a step.
+    struct Place {
+        std::size_t step;
+        int crossing, reflection;
+    };
+
+    template <int mode, bool records, class T>
     GHOSTLIGHT_INLINE void pass(const BundleView<T>& b, std::size_t i, const TraceStep<T>& step,
-                                int crossing, int reflection, Packet<Lanes<T>>& p) {
+                                const Place& place, Packet<Lanes<T>>& p) {
         using V = Lanes<T>;
         const Vec3<V> start = p.ray.position;
         const Meeting<V> meeting = meet(step, b.aspheric, p.margin, p.ray);
-        if (b.lengths != nullptr) {
+        if (records && b.lengths != nullptr) {
             const Vec3<V>& end = p.ray.position;
             const Vec3<V> leg(V(end.x - start.x), V(end.y - start.y),
                               V(end.z - start.z - step.gap_mm));
-            store(dot(leg, p.ray.direction),
-                  b.lengths + static_cast<std::size_t>(&step - b.steps) * b.count + i);
+            store(dot(leg, p.ray.direction), b.lengths + place.step * b.count + i);
         }
         narrow(p.margin, smaller(meeting.turned_margin,
                                  smaller(meeting.miss_margin, meeting.hemisphere_margin)));
-        if (b.cosines != nullptr)
-            store(meeting.cos_incidence,
-                  b.cosines + static_cast<std::size_t>(&step - b.steps) * b.count + i);
+        if (records && b.cosines != nullptr)
+            store(meeting.cos_incidence, b.cosines + place.step * b.count + i);
         const Vec3<V>& at = p.ray.position;
         if (step.at_stop) {
-            store(at.x, b.stop_u[crossing] + i);
-            store(at.y, b.stop_v[crossing] + i);
+            store(at.x, b.stop_u[place.crossing] + i);
+            store(at.y, b.stop_v[place.crossing] + i);
         } else {
             p.r2_rel = larger(p.r2_rel, r2_rel(step, at));
         }
         const Vec3<V> before = p.ray.direction;
         const V cos2_squared = turn(step, meeting, p.ray);
+        if (place.step % 2 == 1) keep_unit(p.ray.direction);
         if (!step.reflects)
             narrow(p.margin, cos2_squared);
-        else if (reflection < max_recorded_reflections)
-            store(cos2_squared, b.onset[reflection] + i);
+        else if (place.reflection < max_recorded_reflections)
+            store(cos2_squared, b.onset[place.reflection] + i);
         if constexpr (mode != no_weights) {
             if (step.invisible) return;
-            const Amplitudes<V> film = amplitudes(step, b.layers, meeting.cos_incidence);
-            const V mean = T(0.5) * (step.reflects ? norm(film.r_s) + norm(film.r_p)
-                                                   : norm(film.t_s) + norm(film.t_p));
-            if (step.reflects && reflection < max_recorded_reflections)
-                store(mean, b.reflectance[reflection] + i);
-            p.average = p.average * mean;
-            if constexpr (mode == polarised_weights)
+            V mean;
+            if constexpr (mode == polarised_weights) {
+                const Amplitudes<V> film = amplitudes(step, b.layers, meeting.cos_incidence);
+                mean = T(0.5) * (step.reflects ? norm(film.r_s) + norm(film.r_p)
+                                               : norm(film.t_s) + norm(film.t_p));
                 apply(film, step.reflects, meeting, before, p.jones);
+            } else {
+                mean = mean_share(step, b.layers, meeting.cos_incidence);
+            }
+            if (step.reflects && place.reflection < max_recorded_reflections)
+                store(mean, b.reflectance[place.reflection] + i);
+            p.average = p.average * mean;
         }
     }
 
@@ -124,32 +133,76 @@ namespace ghostlight::GHOSTLIGHT_JOIN(kernels_, GHOSTLIGHT_ISA) {
         store(V(sqrt(select(lost, V(T(4)), p.r2_rel))), b.r_rel + i);
     }
 
+    /// Most steps are spheres or planes at which light bends or is reflected. With that said by
+    /// constants the compiler leaves out all tests that `pass` makes of its step, packet by packet.
+    template <class T>
+    bool is_plain(const TraceStep<T>& step) {
+        return step.spherical && !step.at_stop && !step.rectangular && !step.invisible &&
+               step.n_in != step.n_out;
+    }
+    template <bool reflects, class T>
+    GHOSTLIGHT_INLINE TraceStep<T> plain(const TraceStep<T>& step) {
+        TraceStep<T> known = step;
+        known.spherical = true;
+        known.aspheric_count = 0;
+        known.at_stop = known.rectangular = known.invisible = false;
+        known.reflects = reflects;
+        return known;
+    }
+
+    /// Any step; kept apart, or it would be compiled once for every place in every loop.
+    template <int mode, class T>
+    [[gnu::noinline]] void pass_any(const BundleView<T>& b, std::size_t i, const TraceStep<T>& step,
+                                    const Place& place, Packet<Lanes<T>>& p) {
+        pass<mode, true>(b, i, step, place, p);
+    }
+
     /// Several packets side by side: each is one long chain of dependent operations, and the others
     /// fill its gaps.
-    template <int mode, int packets, class T>
+    template <int mode, bool records, int packets, class T>
     void trace_at(const BundleView<T>& b, std::size_t i) {
         constexpr std::size_t lanes = Lanes<T>::size();
         Packet<Lanes<T>> p[packets];
         for (std::size_t k = 0; k < packets; ++k) p[k] = begin<mode>(b, i + k * lanes);
-        int crossing = 0, reflection = 0;
-        for (std::size_t s = 0; s < b.step_count; ++s) {
-            const TraceStep<T>& step = b.steps[s];
-            for (std::size_t k = 0; k < packets; ++k)
-                pass<mode>(b, i + k * lanes, step, crossing, reflection, p[k]);
-            crossing += step.at_stop ? 1 : 0;
-            reflection += step.reflects ? 1 : 0;
+        Place place{0, 0, 0};
+        for (; place.step < b.step_count; ++place.step) {
+            const TraceStep<T>& step = b.steps[place.step];
+            if (!is_plain(step)) {
+                for (std::size_t k = 0; k < packets; ++k)
+                    pass_any<mode>(b, i + k * lanes, step, place, p[k]);
+            } else if (step.reflects) {
+                const TraceStep<T> known = plain<true>(step);
+                for (std::size_t k = 0; k < packets; ++k)
+                    pass<mode, records>(b, i + k * lanes, known, place, p[k]);
+            } else {
+                const TraceStep<T> known = plain<false>(step);
+                for (std::size_t k = 0; k < packets; ++k)
+                    pass<mode, records>(b, i + k * lanes, known, place, p[k]);
+            }
+            place.crossing += step.at_stop ? 1 : 0;
+            place.reflection += step.reflects ? 1 : 0;
         }
         for (std::size_t k = 0; k < packets; ++k) finish<mode>(b, i + k * lanes, p[k]);
     }
 
-    template <int mode, class T>
-    void trace_all(const BundleView<T>& b) {
+    template <int mode, bool records, class T>
+    void trace_records(const BundleView<T>& b) {
         constexpr std::size_t lanes = Lanes<T>::size();
-        constexpr int side_by_side = mode == no_weights ? 4 : 2;
+        constexpr std::size_t side_by_side = mode == no_weights ? 4 : 2;
+        // Bundles are padded to so many packets.
+        constexpr std::size_t least = bundle_padding / lanes;
         std::size_t i = 0;
         for (; i + side_by_side * lanes <= b.count; i += side_by_side * lanes)
-            trace_at<mode, side_by_side>(b, i);
-        for (; i < b.count; i += lanes) trace_at<mode, 1>(b, i);
+            trace_at<mode, records, side_by_side>(b, i);
+        if constexpr (least < side_by_side)
+            for (; i < b.count; i += least * lanes) trace_at<mode, records, least>(b, i);
+    }
+
+    template <int mode, class T>
+    void trace_all(const BundleView<T>& b) {
+        if (mode != no_weights || b.cosines != nullptr || b.lengths != nullptr)
+            return trace_records<mode, true>(b);
+        if constexpr (mode == no_weights) trace_records<mode, false>(b);
     }
 
     template <class T>

@@ -48,7 +48,8 @@ bool may_pass(const Bundle<T>& rays, const std::array<std::size_t, 4>& corners, 
         }
         u.widen(share);
         v.widen(share);
-        if (std::hypot(u.distance(), v.distance()) > stop_radius_mm) return false;
+        const double du = u.distance(), dv = v.distance();
+        if (du * du + dv * dv > stop_radius_mm * stop_radius_mm) return false;
     }
     return true;
 }

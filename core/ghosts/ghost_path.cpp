@@ -77,6 +77,7 @@ GhostPath parse_ghost(std::string_view text, const OpticalSystem& system) {
 
 std::vector<PathEvent> events(const GhostPath& path, std::size_t surface_count) {
     std::vector<PathEvent> result;
+    result.reserve((1 + path.reflections.size()) * (surface_count + 1));
     std::size_t surface = 0;
     bool forward = true;
     for (const std::size_t turn : path.reflections) {

@@ -13,7 +13,9 @@ constexpr SearchEffort effort{12, 1, 40, 600};  // as find_pupil's quick one
 constexpr int most_zooms = 24;
 constexpr int most_cells = 96;  ///< of a look: then cells by themselves are cheaper
 constexpr int meridian_rays = 256;
-constexpr std::size_t few_passing = 8;  ///< of the last grid's nodes: look more closely
+constexpr std::size_t share_passing = 4;  ///< one node of so many is to pass, for a box to serve
+constexpr double room_for_moves = 0.15;   ///< about a box of a beam nearby, of its breadth
+constexpr std::size_t few_passing = 8;    ///< of the last grid's nodes: look more closely
 
 PupilBox symmetric(PupilBox box) {
     box.u1_mm = std::max(std::abs(box.u0_mm), std::abs(box.u1_mm));
@@ -21,22 +23,30 @@ PupilBox symmetric(PupilBox box) {
     return box;
 }
 
-std::size_t passing_nodes(const MirrorGrid& grid, double stop_radius_mm) {
-    // All but the middle column stand for two nodes.
-    const std::size_t half = passing_rays(grid.half, stop_radius_mm);
-    std::size_t middle = 0;
+/// Nodes that pass, the stop taken as round.
+struct PassingNodes {
+    std::size_t count = 0;  ///< of the full grid
+    Range i, j;             ///< columns from the middle, rows
+};
+
+PassingNodes passing_nodes(const MirrorGrid& grid, double stop_radius_mm) {
+    PassingNodes nodes;
     const auto r2 = static_cast<float>(stop_radius_mm * stop_radius_mm);
     const Bundle<float>& rays = grid.half;
-    for (int j = 0; j < grid.side(); ++j) {
-        const std::size_t k = grid.of_node(grid.cells / 2, j);
-        bool passes = rays.margin[k] >= 0.0F && rays.r_rel[k] <= 1.0F;
-        for (std::size_t s = 0; s < static_cast<std::size_t>(rays.stop_crossings); ++s)
-            passes = passes && rays.stop_u_mm[s][k] * rays.stop_u_mm[s][k] +
-                                       rays.stop_v_mm[s][k] * rays.stop_v_mm[s][k] <=
-                                   r2;
-        middle += passes ? 1 : 0;
-    }
-    return 2 * half - middle;
+    std::size_t k = 0;
+    for (int j = 0; j < grid.side(); ++j)
+        for (int i = 0; i < grid.half_side(); ++i, ++k) {
+            bool passes = rays.margin[k] >= 0.0F && rays.r_rel[k] <= 1.0F;
+            for (std::size_t s = 0; s < static_cast<std::size_t>(rays.stop_crossings); ++s)
+                passes = passes && rays.stop_u_mm[s][k] * rays.stop_u_mm[s][k] +
+                                           rays.stop_v_mm[s][k] * rays.stop_v_mm[s][k] <=
+                                       r2;
+            if (!passes) continue;
+            nodes.count += i == 0 ? 1 : 2;  // all but the middle column stand for two
+            nodes.i.add(i);
+            nodes.j.add(j);
+        }
+    return nodes;
 }
 
 /// Where rays in the y–z plane pass, with a step to spare; a line of rays costs little and crosses
@@ -80,9 +90,9 @@ void hold(PupilBox& box, const Range& meridian, bool on_axis) {
     box.u0_mm = -box.u1_mm;
 }
 
-/// A box of a beam nearby with room for what has moved, within the entrance.
-PupilBox widened(const PupilBox& box, const PupilBox& whole) {
-    constexpr double room = 0.15;  ///< of the box's breadth, on either side
+/// A box of a beam nearby with `room` of its breadth on either side for what has moved, within the
+/// entrance.
+PupilBox widened(const PupilBox& box, const PupilBox& whole, double room) {
     const double du = 2.0 * room * box.u1_mm, dv = room * (box.v1_mm - box.v0_mm);
     PupilBox wide{0.0, std::min(box.u1_mm + du, whole.u1_mm), std::max(box.v0_mm - dv, whole.v0_mm),
                   std::min(box.v1_mm + dv, whole.v1_mm)};
@@ -97,6 +107,36 @@ bool reaches_edge(const MirrorGrid& grid, const Range& i, const Range& j, const 
     return (i.high >= grid.cells / 2 && grid.box.u1_mm < whole.u1_mm) ||
            (j.low <= 0.0 && grid.box.v0_mm > whole.v0_mm) ||
            (j.high >= grid.cells && grid.box.v1_mm < whole.v1_mm);
+}
+
+/// Whether the box of a beam nearby still serves: what passes fills it, and reaches no side of it
+/// beyond which there is more of the entrance. What bulges out between two nodes of a side is at
+/// most a ten-thousandth of what passes.
+bool still_serves(const MirrorGrid& grid, const PassingNodes& passing, const PupilBox& whole) {
+    const double most_free_rows = std::max(3.0, grid.cells / 3.0);
+    const std::size_t nodes = static_cast<std::size_t>(grid.cells * grid.cells);
+    if (passing.count * share_passing < nodes || passing.i.high < grid.cells / 2 - 1 ||
+        passing.j.low + grid.cells - passing.j.high > most_free_rows)
+        return false;
+    return (passing.i.high < grid.cells / 2 || grid.box.u1_mm >= whole.u1_mm) &&
+           (passing.j.low > 0.0 || grid.box.v0_mm <= whole.v0_mm) &&
+           (passing.j.high < grid.cells || grid.box.v1_mm >= whole.v1_mm);
+}
+
+/// Keeps what passes of a probe's last grid.
+PassingNodes keep_passing(const PupilBox& whole, double stop_radius_mm, GhostProbe& probe) {
+    const MirrorGrid& grid = probe.grid;
+    const PassingNodes passing = passing_nodes(grid, stop_radius_mm);
+    probe.passing = passing.count;
+    probe.passing_box = grid.box;
+    if (passing.count == 0) return passing;
+    const double cell_v_mm = (grid.box.v1_mm - grid.box.v0_mm) / grid.cells;
+    PupilBox& box = probe.passing_box;
+    box.u1_mm = std::min(whole.u1_mm, grid.box.u1_mm * (passing.i.high + 1.0) / (grid.cells / 2));
+    box.u0_mm = -box.u1_mm;
+    box.v0_mm = std::max(whole.v0_mm, grid.box.v0_mm + (passing.j.low - 1.0) * cell_v_mm);
+    box.v1_mm = std::min(whole.v1_mm, grid.box.v0_mm + (passing.j.high + 1.0) * cell_v_mm);
+    return passing;
 }
 
 /// By cells, each way of looking in turn; false when none finds anything.
@@ -131,7 +171,17 @@ GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path
         grid.cells = 2 * cells;
     };
     if (nearby != nullptr && nearby->area_mm2() > 0.0) {
-        grid.box = widened(*nearby, whole);
+        if (!careful) {
+            grid.box = widened(*nearby, whole, 0.0);
+            grid.cells = cells;
+            grid.half.keep_cosines = true;
+            trace_mirrored(path, frame, Weights::none, grid);
+            probe.rays += grid.half.size();
+            probe.served = still_serves(grid, keep_passing(whole, stop_radius_mm, probe), whole);
+            if (probe.served) return probe;
+            grid.half.keep_cosines = false;
+        }
+        grid.box = widened(*nearby, whole, room_for_moves);
         grid.cells = cells + 2;
     } else {
         begin_with_all();
@@ -185,7 +235,7 @@ GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path
         grid.box.u0_mm = -grid.box.u1_mm;
         grid.box.v0_mm = v0 + height * j_range.low / across;
         grid.box.v1_mm = v0 + height * j_range.high / across;
-        if (passing_nodes(grid, stop_radius_mm) >= effort.enough_passing) break;
+        if (passing_nodes(grid, stop_radius_mm).count >= effort.enough_passing) break;
         // Each look halves the cells at least; where the box hardly shrinks it takes more of them.
         const double kept = std::max(2.0 * i_range.high, j_range.high - j_range.low);
         grid.cells = std::max(cells, 2 * static_cast<int>(std::ceil(kept)));
@@ -196,7 +246,7 @@ GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path
     const PupilBox found = grid.box;
     trace_mirrored(path, frame, Weights::none, grid);
     probe.rays += grid.half.size();
-    probe.passing = passing_nodes(grid, stop_radius_mm);
+    keep_passing(whole, stop_radius_mm, probe);
     const bool too_few = probe.passing < few_passing && !searched;
     if (too_few && careful &&
         !search_cells(system, path, frame, {PupilSearch::quick, PupilSearch::beside_failing},
@@ -210,7 +260,7 @@ GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path
         return probe;
     trace_mirrored(path, frame, Weights::none, grid);
     probe.rays += grid.half.size();
-    probe.passing = passing_nodes(grid, stop_radius_mm);
+    keep_passing(whole, stop_radius_mm, probe);
     return probe;
 }
 

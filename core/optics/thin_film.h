@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/lanes.h"
+#include "core/sin_cos.h"
 
 // Thin films by the characteristic matrix (H. A. Macleod, Thin-Film Optical Filters, ch. 2), in
 // the sine-free form of the project's conventions: everything follows from cos θ in the incident
@@ -67,15 +68,14 @@ struct Phase {
 
 template <class V>
 GHOSTLIGHT_INLINE Phase<V, V> phase_of(const V& x) {
-    using std::cos;
     using std::exp;
-    using std::sin;
     using std::sqrt;
     using T = Lane<V>;
     const V zero{T(0)};
     const auto small = magnitude(x) < T(0.01);
     const V a = sqrt(select(small, V(T(1)), V(magnitude(x))));
-    Phase<V, V> phase{cos(a), V(sin(a) / a), zero};
+    const SinCos<V> of_a = sin_cos(a);
+    Phase<V, V> phase{of_a.cos, V(of_a.sin / a), zero};
     if (any(x < zero)) {
         const V e = exp(T(-2) * a);
         phase.cos = select(x < zero, V(T(0.5) * (T(1) + e)), phase.cos);
@@ -100,9 +100,7 @@ GHOSTLIGHT_INLINE Phase<V, V> phase_of(const V& x) {
 
 template <class V>
 GHOSTLIGHT_INLINE Phase<Complex<V>, V> phase_of(const Complex<V>& x) {
-    using std::cos;
     using std::exp;
-    using std::sin;
     using T = Lane<V>;
     const V zero{T(0)};
     const V one{T(1)};
@@ -114,8 +112,7 @@ GHOSTLIGHT_INLINE Phase<Complex<V>, V> phase_of(const Complex<V>& x) {
     const V e = exp(T(-2) * delta.im);
     const V ch = T(0.5) * (T(1) + e);
     const V sh = T(0.5) * (T(1) - e);
-    const V ca = cos(delta.re);
-    const V sa = sin(delta.re);
+    const auto [sa, ca] = sin_cos(delta.re);
     Phase<Complex<V>, V> phase{
         {V(ca * ch), V(-sa * sh)}, quotient(Complex<V>{V(sa * ch), V(ca * sh)}, delta), delta.im};
     if (any(small)) {
@@ -183,27 +180,33 @@ GHOSTLIGHT_INLINE void pass_layer(const Index& n2, const Index& inverse_n2, cons
     }
 }
 
+/// What a film makes of the exit side's unit field: (B, C) at the entrance side, times
+/// 1/decay_factor.
 template <class V>
-GHOSTLIGHT_INLINE void amplitudes_of(const Polarised<V>& f, const V& y0, const V& y_exit_re,
-                                     const V& decay_factor, Complex<V>& r, Complex<V>& t) {
+struct FilmFields {
+    Polarised<V> s, p;
+    V w_re;  ///< n cos of the exit side, 0 where nothing leaves
+    V decay_factor;
+};
+
+/// `root`: of the product of the admittances of entrance and exit.
+template <class V>
+GHOSTLIGHT_INLINE void amplitudes_of(const Polarised<V>& f, const V& y0, const V& root,
+                                     Complex<V>& r, Complex<V>& t) {
     const Complex<V> yb = y0 * f.b;
     const Complex<V> sum = yb + f.c, difference = yb - f.c;
     const V inverse = Lane<V>(1) / norm(sum);
     r = {(difference.re * sum.re + difference.im * sum.im) * inverse,
          (difference.im * sum.re - difference.re * sum.im) * inverse};
     // 2 sqrt(y0 Re y_exit)/(y0 B + C): finite at grazing, where y0 is 0.
-    const V scale = Lane<V>(2) * sqrt_or_zero(V(y0 * y_exit_re)) * decay_factor * inverse;
+    const V scale = Lane<V>(2) * root * inverse;
     t = {scale * sum.re, -scale * sum.im};
 }
 
-}  // namespace detail
-
-/// `layers` from the incident side. `Absorbing` picks complex indices; without it the imaginary
-/// parts are ignored. The exit and incident media are lossless.
 template <bool Absorbing, class V, class T>
-GHOSTLIGHT_INLINE Amplitudes<V> film_amplitudes(const T& n_in, const LayerAt<T>* layers,
-                                                int layer_count, const T& n_out,
-                                                const V& cos_incidence) {
+GHOSTLIGHT_INLINE FilmFields<V> film_fields(const T& n_in, const LayerAt<T>* layers,
+                                            int layer_count, const T& n_out,
+                                            const V& cos_incidence) {
     using std::exp;
     using L = Lane<V>;
     const V zero{L(0)};
@@ -215,8 +218,8 @@ GHOSTLIGHT_INLINE Amplitudes<V> film_amplitudes(const T& n_in, const LayerAt<T>*
     const T inverse_n2 = T(1) / (n_out * n_out);
     const V w_re = select(propagates, w, zero);
     const V w_im = select(propagates, zero, w);
-    detail::Polarised<V> s{{one, zero}, {w_re, w_im}};
-    detail::Polarised<V> p{{one, zero}, {V(w_re * inverse_n2), V(w_im * inverse_n2)}};
+    Polarised<V> s{{one, zero}, {w_re, w_im}};
+    Polarised<V> p{{one, zero}, {V(w_re * inverse_n2), V(w_im * inverse_n2)}};
     V decay = zero;
     for (int i = layer_count - 1; i >= 0; --i) {
         const LayerAt<T>& layer = layers[i];
@@ -224,19 +227,62 @@ GHOSTLIGHT_INLINE Amplitudes<V> film_amplitudes(const T& n_in, const LayerAt<T>*
             const Complex<V> n2{V(layer.n2_re), V(layer.n2_im)};
             const Complex<V> layer_w2{V(layer.n2_re - q2), V(layer.n2_im)};
             const Complex<V> inverse = quotient(Complex<V>{one, zero}, n2);
-            detail::pass_layer(n2, inverse, layer_w2, layer.k0_d, s, p, decay);
+            pass_layer(n2, inverse, layer_w2, layer.k0_d, s, p, decay);
         } else {
-            detail::pass_layer(V(layer.n2_re), V(T(1) / layer.n2_re), V(layer.n2_re - q2),
-                               layer.k0_d, s, p, decay);
+            pass_layer(V(layer.n2_re), V(T(1) / layer.n2_re), V(layer.n2_re - q2), layer.k0_d, s, p,
+                       decay);
         }
     }
     V decay_factor = one;
     if (any(decay > zero)) decay_factor = exp(-decay);
+    return {s, p, w_re, decay_factor};
+}
+
+}  // namespace detail
+
+/// `layers` from the incident side. `Absorbing` picks complex indices; without it the imaginary
+/// parts are ignored. The exit and incident media are lossless.
+template <bool Absorbing, class V, class T>
+GHOSTLIGHT_INLINE Amplitudes<V> film_amplitudes(const T& n_in, const LayerAt<T>* layers,
+                                                int layer_count, const T& n_out,
+                                                const V& cos_incidence) {
+    using L = Lane<V>;
+    const auto fields =
+        detail::film_fields<Absorbing>(n_in, layers, layer_count, n_out, cos_incidence);
+    const V y_s = n_in * cos_incidence;
+    const T inverse = L(1) / (n_in * n_out);
+    const V root = sqrt_or_zero(V(y_s * fields.w_re)) * fields.decay_factor;
     Amplitudes<V> result;
-    detail::amplitudes_of(s, V(n_in * cos_incidence), w_re, decay_factor, result.r_s, result.t_s);
-    detail::amplitudes_of(p, V(cos_incidence / n_in), V(w_re * inverse_n2), decay_factor,
-                          result.r_p, result.t_p);
+    detail::amplitudes_of(fields.s, y_s, root, result.r_s, result.t_s);
+    detail::amplitudes_of(fields.p, V((L(1) / n_in) * cos_incidence), V(root * inverse), result.r_p,
+                          result.t_p);
     return result;
+}
+
+/// Means of s and p of what is reflected and of what passes.
+template <class V>
+struct MeanShares {
+    V reflected, passed;
+};
+
+/// Of film_amplitudes' squares, at half the cost.
+template <bool Absorbing, class V, class T>
+GHOSTLIGHT_INLINE MeanShares<V> film_shares(const T& n_in, const LayerAt<T>* layers,
+                                            int layer_count, const T& n_out,
+                                            const V& cos_incidence) {
+    using L = Lane<V>;
+    const auto fields =
+        detail::film_fields<Absorbing>(n_in, layers, layer_count, n_out, cos_incidence);
+    const V y_s = n_in * cos_incidence;
+    const Complex<V> s = y_s * fields.s.b;
+    const Complex<V> p = V((L(1) / n_in) * cos_incidence) * fields.p.b;
+    const V sum_s = norm(s + fields.s.c), sum_p = norm(p + fields.p.c);
+    // Both over one denominator.
+    const V half_inverse = L(0.5) / (sum_s * sum_p);
+    const T inverse = L(1) / (n_in * n_out);
+    const V admittances = L(4) * y_s * fields.w_re * fields.decay_factor * fields.decay_factor;
+    return {(norm(s - fields.s.c) * sum_p + norm(p - fields.p.c) * sum_s) * half_inverse,
+            admittances * (sum_p + inverse * inverse * sum_s) * half_inverse};
 }
 
 }  // namespace GHOSTLIGHT_ISA

@@ -63,18 +63,23 @@ template <class T>
 TracePath<T> trace_path(const OpticalSystem& system, const GhostPath& ghost) {
     TracePath<T> path;
     double z = 0.0;
-    for (const PathEvent& event : events(ghost, system.surfaces.size())) {
+    const std::vector<PathEvent> met = events(ghost, system.surfaces.size());
+    path.steps.reserve(met.size());
+    for (const PathEvent& event : met) {
         const SurfaceAt& surface = surface_at(system, event.surface);
-        const Film film = event.forward ? surface.film : reversed(surface.film);
+        // Not reversed(film): a path is unfolded several times for each ghost of each picture.
+        const Film& film = surface.film;
+        const double n_in = event.forward ? film.n_in : film.n_out;
+        const double n_out = event.forward ? film.n_out : film.n_in;
         TraceStep<T> step{};
         step.gap_mm = T(z - surface.vertex_z_mm);
         z = surface.vertex_z_mm;
         step.curvature = T(surface.curvature_per_mm);
         step.conic = T(surface.conic);
         step.inverse_clear = T(1.0 / surface.semi_diameter_mm);
-        step.n_in = T(film.n_in);
-        step.n_out = T(film.n_out);
-        step.eta = T(film.n_in / film.n_out);
+        step.n_in = T(n_in);
+        step.n_out = T(n_out);
+        step.eta = T(n_in / n_out);
         step.spherical = surface.conic == 0.0 && surface.aspheric.empty();
         step.sense = T(event.forward ? 1.0 : -1.0);
         step.absorption_per_mm =
@@ -85,10 +90,12 @@ TracePath<T> trace_path(const OpticalSystem& system, const GhostPath& ghost) {
         for (const double a : surface.aspheric) path.aspheric.push_back(T(a));
         step.first_layer = static_cast<int>(path.layers.size());
         step.layer_count = static_cast<int>(film.layers.size());
-        for (const FilmLayer& layer : film.layers)
+        for (std::size_t k = 0; k < film.layers.size(); ++k) {
+            const FilmLayer& layer = film.layers[event.forward ? k : film.layers.size() - 1 - k];
             path.layers.push_back(
                 {T(layer.n * layer.n - layer.k * layer.k), T(2.0 * layer.n * layer.k),
                  T(2.0 * std::numbers::pi / film.wavelength_nm * layer.thickness_nm)});
+        }
         if (!film.angles.empty()) {
             path.angles.push_back(
                 std::make_shared<const std::vector<AngleAt<T>>>(angles_at<T>(film)));

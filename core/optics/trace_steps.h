@@ -134,6 +134,25 @@ void refine_asphere(const TraceStep<T>& step, const T* a, const V& margin, RayAt
 
 }  // namespace detail
 
+/// meet() for spheres and planes in bundles, from the foot `p` of the perpendicular: with p·d = 0 a
+/// third of the work falls away.
+template <class V, class T>
+GHOSTLIGHT_INLINE void meet_sphere(const TraceStep<T>& step, const Vec3<V>& p, RayAt<V>& ray,
+                                   Meeting<V>& meeting) {
+    using L = Lane<V>;
+    const Vec3<V>& d = ray.direction;
+    const T c = step.curvature, signed_c = step.curvature * step.sense;
+    const V f = c * dot(p, p) - L(2) * p.z;
+    meeting.miss_margin = d.z * d.z - c * f;
+    const V root = sqrt_or_zero(meeting.miss_margin);
+    ray.position = along(p, d, V(f / (d.z + step.sense * root)));
+    const Vec3<V>& q = ray.position;
+    meeting.hemisphere_margin = L(1) - c * q.z;
+    meeting.normal =
+        Vec3<V>(V(-signed_c * q.x), V(-signed_c * q.y), V(step.sense - signed_c * q.z));
+    meeting.cos_incidence = smaller(V(L(1)), root);
+}
+
 /// Moves the ray to the surface of `step`, in that surface's own coordinates. `margin` is the
 /// ray's least margin so far.
 template <class V, class T>
@@ -148,6 +167,11 @@ GHOSTLIGHT_INLINE Meeting<V> meet(const TraceStep<T>& step, const T* aspheric, c
     ray.position.z = ray.position.z + step.gap_mm;
     Vec3<V> p = along(ray.position, d, V(-dot(ray.position, d)));
     const T c = step.curvature;
+    if constexpr (is_lanes<V>)
+        if (step.spherical) {
+            meet_sphere(step, p, ray, meeting);
+            return meeting;
+        }
     const T k1 = L(1) + step.conic;
     const V f = c * (p.x * p.x + p.y * p.y + k1 * p.z * p.z) - L(2) * p.z;
     const V g = d.z - c * (p.x * d.x + p.y * d.y + k1 * p.z * d.z);
@@ -176,7 +200,16 @@ GHOSTLIGHT_INLINE Meeting<V> meet(const TraceStep<T>& step, const T* aspheric, c
     return meeting;
 }
 
+/// One Newton step towards unit length: rounding does not add up over hundreds of surfaces.
+template <class V>
+GHOSTLIGHT_INLINE void keep_unit(Vec3<V>& direction) {
+    using L = Lane<V>;
+    const V fix = L(1.5) - L(0.5) * dot(direction, direction);
+    direction = Vec3<V>(V(fix * direction.x), V(fix * direction.y), V(fix * direction.z));
+}
+
 /// Turns the ray at the surface; returns cos² of the refraction, negative in total reflection.
+/// Bundles are to call keep_unit() after every other turn at least.
 template <class V, class T>
 GHOSTLIGHT_INLINE V turn(const TraceStep<T>& step, const Meeting<V>& meeting, RayAt<V>& ray) {
     using L = Lane<V>;
@@ -189,10 +222,7 @@ GHOSTLIGHT_INLINE V turn(const TraceStep<T>& step, const Meeting<V>& meeting, Ra
         const V cos2 = sqrt_or_zero(cos2_squared);
         ray.direction = mix(V(eta), ray.direction, V(cos2 - eta * cos1), meeting.normal);
     }
-    // One Newton step towards unit length: rounding does not add up over hundreds of surfaces.
-    const V fix = L(1.5) - L(0.5) * dot(ray.direction, ray.direction);
-    ray.direction =
-        Vec3<V>(V(fix * ray.direction.x), V(fix * ray.direction.y), V(fix * ray.direction.z));
+    if constexpr (!is_lanes<V>) keep_unit(ray.direction);
     return cos2_squared;
 }
 
@@ -272,6 +302,24 @@ GHOSTLIGHT_INLINE Amplitudes<V> amplitudes(const TraceStep<T>& step, const Layer
                ? film_amplitudes<true>(step.n_in, own, step.layer_count, step.n_out, cos_incidence)
                : film_amplitudes<false>(step.n_in, own, step.layer_count, step.n_out,
                                         cos_incidence);
+}
+
+/// The mean of s and p of what the interface reflects, or of what it lets pass.
+template <class V, class T>
+GHOSTLIGHT_INLINE V mean_share(const TraceStep<T>& step, const LayerAt<T>* layers,
+                               const V& cos_incidence) {
+    using L = Lane<V>;
+    if (step.uniform || step.angles != nullptr) {
+        const Amplitudes<V> given = amplitudes(step, layers, cos_incidence);
+        return L(0.5) * (step.reflects ? norm(given.r_s) + norm(given.r_p)
+                                       : norm(given.t_s) + norm(given.t_p));
+    }
+    const LayerAt<T>* own = layers + step.first_layer;
+    const MeanShares<V> shares =
+        step.absorbing
+            ? film_shares<true>(step.n_in, own, step.layer_count, step.n_out, cos_incidence)
+            : film_shares<false>(step.n_in, own, step.layer_count, step.n_out, cos_incidence);
+    return step.reflects ? shares.reflected : shares.passed;
 }
 
 }  // namespace GHOSTLIGHT_ISA

@@ -242,9 +242,15 @@ TEST_F(FitPhotographsTest, BracketedExposuresAreMergedInTheFit) {
     write_photo(test::flare_photo(1.0, 1), 0, folder.filePath("brief.exr").toStdString());
     write_photo(test::flare_photo(times, 2), 0, folder.filePath("lengthy.exr").toStdString());
     open_wrong();
-    panel_.add_photographs({folder.filePath("brief.exr"), folder.filePath("lengthy.exr")});
+    panel_.add_photographs({folder.filePath("brief.exr")});
     type_spec("center@1");
     make_quick();
+    ASSERT_TRUE(settle());
+    click("start");
+    ASSERT_TRUE(settle());
+    ASSERT_TRUE(panel_.report()) << panel_.reason().toStdString();
+    const FittedNumber alone = panel_.report()->numbers.front();
+    panel_.add_photographs({folder.filePath("lengthy.exr")});
     ASSERT_TRUE(settle());
     QTest::mouseClick(&panel_.button("merge"), Qt::LeftButton, {}, QPoint(8, 8));
     EXPECT_TRUE(fit_setup_from_json(document_.fit()).merge);
@@ -255,7 +261,8 @@ TEST_F(FitPhotographsTest, BracketedExposuresAreMergedInTheFit) {
     ASSERT_TRUE(panel_.report()) << panel_.reason().toStdString();
     ASSERT_EQ(panel_.report()->photos.size(), 1U);
     const FittedNumber& found = panel_.report()->numbers.front();
-    EXPECT_NEAR(found.value, test::true_nm, 4.0 * found.standard_error);  // 1 in 16,000
+    // More light of the same flare moves the number by less than one of the short one's errors.
+    EXPECT_NEAR(found.value, alone.value, alone.standard_error);
     EXPECT_EQ(found.knowledge, FitKnowledge::determined);
 }
 

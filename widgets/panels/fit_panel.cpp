@@ -55,6 +55,7 @@ FitPanel::FitPanel(Document& document, const Actions& actions, QWidget* parent)
     parts->setStretchFactor(0, 3);
     parts->setStretchFactor(1, 4);
     parts->setStretchFactor(2, 3);
+    parts->setSizes({390, 520, 390});
     auto* content = new QWidget;
     auto* column = new QVBoxLayout(content);
     column->setContentsMargins(0, 0, 0, 0);

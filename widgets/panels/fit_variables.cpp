@@ -167,8 +167,12 @@ QHBoxLayout* FitVariables::make_add() {
     return row;
 }
 
-QHBoxLayout* FitVariables::make_more() {
+QVBoxLayout* FitVariables::make_more() {
+    auto* rows = new QVBoxLayout;
     auto* row = new QHBoxLayout;
+    auto* on_request = new QHBoxLayout;
+    rows->addLayout(row);
+    rows->addLayout(on_request);
     spectrum_ = new QLineEdit;
     spectrum_->setObjectName("fit_spectrum");
     spectrum_->setMaximumWidth(110);
@@ -213,12 +217,13 @@ QHBoxLayout* FitVariables::make_more() {
     bootstrap_->setKeyboardTracking(false);
     bootstrap_->setToolTip(
         tr("Fits to so many photographs drawn from the fitted model and its errors; takes longer"));
-    row->addWidget(new QLabel(tr("Bootstrap")));
-    row->addWidget(bootstrap_);
-    row->addSpacing(8);
-    row->addWidget(merge_);
-    row->addWidget(suggest_);
     row->addStretch(1);
+    on_request->addWidget(new QLabel(tr("Bootstrap")));
+    on_request->addWidget(bootstrap_);
+    on_request->addSpacing(8);
+    on_request->addWidget(merge_);
+    on_request->addWidget(suggest_);
+    on_request->addStretch(1);
     connect(bootstrap_, &QSpinBox::valueChanged, this, [this](int draws) {
         change(tr("change the fit's bootstrap"),
                [draws](FitSetup& setup) { setup.bootstrap = draws; });
@@ -255,7 +260,7 @@ QHBoxLayout* FitVariables::make_more() {
         change(on ? tr("suggest photographs") : tr("suggest no photographs"),
                [on](FitSetup& setup) { setup.suggestions = on ? suggested_angles : 0; });
     });
-    return row;
+    return rows;
 }
 
 template <class Change>

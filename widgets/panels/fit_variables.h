@@ -15,6 +15,7 @@ class QSpinBox;
 class QTableView;
 class QTabWidget;
 class QToolButton;
+class QVBoxLayout;
 
 namespace ghostlight {
 
@@ -46,7 +47,7 @@ class FitVariables : public QWidget {
 
    private:
     QHBoxLayout* make_add();
-    QHBoxLayout* make_more();
+    QVBoxLayout* make_more();
     void add_spec(const QString& text, const QString& step);
     void add_all_coatings();
     void add_marked();

@@ -5029,6 +5029,14 @@ ausgelassen werden darf, Strahlen verfolgen, rastern, summieren, auf den Schirm 
         <translation>Reflextabelle *%1 %*</translation>
     </message>
     <message>
+        <source>first look, off by about *%1 %*</source>
+        <translation>erster Blick, etwa *%1 %* daneben</translation>
+    </message>
+    <message>
+        <source>Each ghost from a few rays about its own centre ray, to see something at once. The error is estimated from those rays; light that enters elsewhere is not in it.</source>
+        <translation>Jeder Reflex aus wenigen Strahlen um seinen eigenen Mittelstrahl, um gleich etwas zu sehen. Der Fehler ist aus diesen Strahlen geschätzt; Licht, das anderswo eintritt, ist nicht darin.</translation>
+    </message>
+    <message>
         <source>bounds %1</source>
         <translation>Schranken %1</translation>
     </message>

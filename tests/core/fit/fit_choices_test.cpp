@@ -54,33 +54,27 @@ const Prescription& tessar() {
     return lens;
 }
 
-TEST(FitChoicesSlow, KindsOfCoatingAreThoseOfTheTruth) {
-    // Surface 1 bare, surface 8 with a library's V-coat, the others as the lens lists them.
+TEST(FitChoicesSlow, KindOfASurfaceIsThatOfTheTruth) {
+    // Surface 1 bare, the others as the lens lists them.
     Prescription truth = tessar();
     truth.surfaces[0].coating = Uncoated{};
     const Coating* v_coat = find_coating("v-coat");
     ASSERT_NE(v_coat, nullptr);
-    truth.surfaces[7].coating = *v_coat;
     const std::vector<FitPhoto> photos = {photo_of(truth, StandardLight{})};
     FitRequest request = quick_request();
-    request.vary = parse_vary("center@1,center@3,center@8", tessar());
+    request.vary = parse_vary("center@1,center@3", tessar());
     request.kinds = {{"none", Uncoated{}}, {"one layer", QuarterWave{}}, {"v-coat", *v_coat}};
+    request.kind_rows = {0};
     const FitReport report = *fit_flare(tessar(), photos, request);
-    ASSERT_EQ(report.kinds.size(), 3U);
-    for (const SurfaceKinds& each : report.kinds) {
-        const std::string expected = each.row == 0   ? "none"
-                                     : each.row == 7 ? "v-coat"
-                                                     : "one layer";
-        EXPECT_EQ(each.tried.front().name, expected) << "surface " << each.row + 1;
-        // Odds of 100 : 1 and more.
-        ASSERT_EQ(each.tried.size(), 3U);
-        EXPECT_GT(each.tried[1].bic_above, 9.2) << "surface " << each.row + 1;
-    }
+    ASSERT_EQ(report.kinds.size(), 1U);
+    ASSERT_EQ(report.kinds.front().tried.size(), 3U);
+    EXPECT_EQ(report.kinds.front().tried.front().name, "none");
+    // Odds of 100 : 1 and more.
+    EXPECT_GT(report.kinds.front().tried[1].bic_above, 9.2);
     EXPECT_TRUE(std::holds_alternative<Uncoated>(report.lens.lens.surfaces[0].coating));
-    EXPECT_TRUE(std::holds_alternative<LayerStack>(report.lens.lens.surfaces[7].coating));
     EXPECT_TRUE(report.usable) << report.verdict;
-    // λ0 of 3 and the V-coat's thickness are what is left to fit.
-    EXPECT_EQ(report.numbers.size(), 2U);
+    // λ0 of 3 is what is left to fit.
+    EXPECT_EQ(report.numbers.size(), 1U);
 }
 
 class OtherIntervalsSlow : public testing::Test {
@@ -116,8 +110,10 @@ TEST_F(OtherIntervalsSlow, AgreeWithStandardErrors) {
     EXPECT_TRUE(std::ranges::is_sorted(profile.values));
     EXPECT_LT(profile.low, number.value);
     EXPECT_GT(profile.high, number.value);
-    // Of a minimum that is near to a parabola: the same breadth to a third.
-    EXPECT_NEAR((profile.high - profile.low) / (2.0 * 1.96 * number.standard_error), 1.0, 0.34);
+    // Two ways to one breadth: a minimum near to a parabola, and the scatter of 40 draws, which is
+    // known to 11 %; three of those, and a little for the parabola.
+    EXPECT_NEAR((profile.high - profile.low) / (2.0 * 1.96 * report.bootstrap[0].scatter), 1.0,
+                0.4);
     // They change nothing of the fit.
     const FitReport plain = *fit_flare(tessar(), photos(), request());
     for (std::size_t k = 0; k < plain.numbers.size(); ++k) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -104,6 +105,35 @@ TEST(Photo, ExposuresMergeToTheirCommonLight) {
                   merged({lengthy, brief});
               }).problem.find("exposure times"),
               std::string::npos);
+}
+
+TEST(Photo, NoiseOfMergedExposuresIsThatOfTheFewestPhotons) {
+    Photo lengthy = noisy_photo(1e-4, 1e-6, 1), brief = noisy_photo(1e-4, 1e-6, 2);
+    lengthy.exposure_s = 0.04;
+    brief.exposure_s = 0.01;
+    // In units of the longer one, a photon of the short one is worth four.
+    EXPECT_NEAR(merged({lengthy, brief}).noise.shot, 1.0 / (1.0 / 1e-4 + 1.0 / 4e-4), 1e-12);
+    // A twentieth clips in the long one: there the short one stands alone.
+    std::fill_n(lengthy.masked.begin(), lengthy.pixels() / 20, mask_reason::saturated);
+    EXPECT_NEAR(merged({lengthy, brief}).noise.shot, 4e-4, 1e-12);
+}
+
+TEST(Photo, MergingDoesNotPreferLowValues) {
+    // Twenty photons a pixel in the long exposure, five in the short one, and no reading: weighted
+    // by their own values they would come out a photon too low, 4 % of the light.
+    constexpr double photon = 1e-4, level = 20 * photon;
+    Photo lengthy = noisy_photo(photon, 0.0), brief = lengthy;
+    std::mt19937_64 random(7);
+    std::poisson_distribution<int> many(20), few(5);
+    for (float& value : lengthy.rgb) value = static_cast<float>(photon * many(random));
+    for (float& value : brief.rgb) value = static_cast<float>(photon * few(random));
+    lengthy.exposure_s = 0.04;
+    brief.exposure_s = 0.01;
+    double sum = 0.0;
+    const Photo one = merged({lengthy, brief});
+    for (const float value : one.rgb) sum += static_cast<double>(value);
+    // 360 000 values of 25 photons: the mean scatters by 1 in 3000; six of that.
+    EXPECT_NEAR(sum / static_cast<double>(one.rgb.size()) / level, 1.0, 2e-3);
 }
 
 TEST(Photo, ALightThatClipsEveryExposureIsFoundInTheMergedOne) {

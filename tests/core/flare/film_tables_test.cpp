@@ -21,19 +21,27 @@ TEST(FilmTables, WeightsAreTheProductsOfTheFilms) {
     const Prescription lens = bundled("tessar_brendel_100_f2.8");
     std::vector<OpticalSystem> systems;
     for (const double nm : {420.0, 500.0, 587.5618, 650.0}) systems.push_back(compile(lens, nm));
+    // More than one vector of wavelengths, so that both parts are looked up.
+    for (int k = 0; k < 14; ++k) systems.push_back(compile(lens, 430.0 + 15.0 * k));
     const FilmTables tables(systems, 1);
+    const FilmTables single({systems[1]}, 1);
+    EXPECT_EQ(single.stride(), 1U);
     Random random(7);
     for (const GhostPath& ghost : two_reflection_ghosts(systems.front())) {
         const auto path = trace_path<float>(systems.front(), ghost);
         Bundle<float> rays;
-        constexpr std::size_t count = 20;
+        constexpr std::size_t count = 21;  // odd: rays go in pairs
         rays.u_mm.assign(count, 0.0F);
         rays.v_mm.assign(count, 0.0F);
         rays.cosine_stride = count;
         for (std::size_t k = 0; k < path.steps.size() * count; ++k)
             rays.cosines.push_back(static_cast<float>(random.between(least_cosine, 1.0)));
-        std::vector<float> weights;
+        std::vector<float> weights, of_one;
         tables.weights(path, rays, weights);
+        single.weights(path, rays, of_one);
+        // The same sums, of which some may be fused.
+        for (std::size_t ray = 0; ray < count; ++ray)
+            ASSERT_NEAR(of_one[ray] / weights[ray * tables.stride() + 1], 1.0, 1e-5);
         for (std::size_t ray = 0; ray < count; ++ray)
             for (std::size_t w = 0; w < systems.size(); ++w) {
                 double product = 1.0;

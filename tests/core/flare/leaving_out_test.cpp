@@ -139,7 +139,7 @@ TEST_F(NearbyPlan, APlanThatIsWrongIsNotFollowed) {
     FlarePlan wrong = truth.plan;
     for (PlannedGhost& ghost : wrong.ghosts) {
         if (ghost.fate == GhostFate::nothing_passes) continue;
-        PupilBox& box = ghost.box;  // only a corner of it
+        PupilBox& box = ghost.look.box;  // only a corner of it
         box.u1_mm *= 0.2;
         box.u0_mm = -box.u1_mm;
         box.v1_mm = box.v0_mm + 0.2 * (box.v1_mm - box.v0_mm);

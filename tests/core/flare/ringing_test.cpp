@@ -146,7 +146,8 @@ TEST(Ringing, ARimIsTheSameWhateverCutsIt) {
                                opening);
     by_surface.stop.surface = row + 1;
     by_surface.stop.f_number.reset();
-    const FlareRequest request = request_of(0.0, 900);
+    // Just off the axis, where the pictures without fringes are drawn by grids, too.
+    const FlareRequest request = request_of(0.01, 900);
     int compared = 0;
     for (const GhostPath& path : rung_ghosts(by_stop, request)) {
         GhostPath same = path;

@@ -188,6 +188,28 @@ TEST(ThinFilm, PhaseIsSmoothWhereTheSeriesTakesOver) {
     }
 }
 
+TEST(ThinFilm, MeanSharesAreTheMeansOfTheSquares) {
+    // Two ways to the same numbers: rounding alone, where |y0 B + C|² is not small.
+    constexpr double tolerance = 1e-11;
+    Random random(9);
+    for (int i = 0; i < 500; ++i) {
+        const Film film = random_film(random, i % 2 == 1);
+        std::vector<LayerAt<double>> layers;
+        for (const FilmLayer& layer : film.layers)
+            layers.push_back({layer.n * layer.n - layer.k * layer.k, 2.0 * layer.n * layer.k,
+                              2.0 * std::numbers::pi / film.wavelength_nm * layer.thickness_nm});
+        const auto count = static_cast<int>(layers.size());
+        const double cos_incidence = random.between(0.05, 1.0);
+        const Reflectances exact = reflectances(film, cos_incidence);
+        const MeanShares<double> means =
+            is_absorbing(film)
+                ? film_shares<true>(film.n_in, layers.data(), count, film.n_out, cos_incidence)
+                : film_shares<false>(film.n_in, layers.data(), count, film.n_out, cos_incidence);
+        EXPECT_NEAR(means.reflected, exact.r(), tolerance) << i;
+        EXPECT_NEAR(means.passed, exact.t(), tolerance) << i;
+    }
+}
+
 TEST(ThinFilm, SinglePrecisionFollowsDouble) {
     // Eight layers of up to a few waves each: some tens of float roundings of the phase.
     constexpr double tolerance = 1e-4;
