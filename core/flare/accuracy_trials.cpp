@@ -157,7 +157,7 @@ class Trials {
                         const DrawGhosts draw = render_planned;
                         const SceneView view{lens, scene, *spectra, point, draw};
                         auto ghosts = ghosts_layer(view, request, stop);
-                        const auto veil = ghosts ? veil_layer(view, request, stop) : std::nullopt;
+                        const auto veil = ghosts ? veil_layer(view, request, stop, &*ghosts) : std::nullopt;
                         if (!veil) return std::nullopt;
                         for (std::size_t i = 0; i < veil->irradiance.size(); ++i)
                             ghosts->irradiance[i] += veil->irradiance[i];
