@@ -55,7 +55,7 @@ int hidden_height_px(const QWidget& panel) {
 /// The panels that share a place, where only one is seen, or all there are: each whole, as
 /// panel_NAME.png.
 void write_panels(MainWindow& window, const std::filesystem::path& folder, SnapshotPanels which) {
-    constexpr int highest_px = 2000;
+    constexpr int highest_px = 2000, panel_timeout_ms = 20000;
     constexpr int least_px = 380;  // about what opening one at the bottom gives it
     const QByteArray places = window.saveState();
     const bool every = which == SnapshotPanels::every;
@@ -72,6 +72,7 @@ void write_panels(MainWindow& window, const std::filesystem::path& folder, Snaps
         dock->show();
         dock->raise();
         run_events(drawing_ms);
+        wait_until_settled(window, panel_timeout_ms);  // some work only while they are seen
         const QSize size = dock->size().expandedTo({0, least_px});
         dock->setFloating(true);
         dock->resize(size);

@@ -513,8 +513,15 @@ void StopPanel::follow_document() {
     delay_.start();
 }
 
+void StopPanel::showEvent(QShowEvent* event) {
+    QWidget::showEvent(event);
+    delay_.start();
+}
+
 void StopPanel::request() {
-    if (document_.is_empty()) {
+    // Behind a tab nobody sees the starburst, which takes longer than most edits.
+    const bool is_hidden = !isVisible() && window()->isVisible();
+    if (document_.is_empty() || is_hidden) {
         return;
     }
     try {

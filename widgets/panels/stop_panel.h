@@ -52,6 +52,7 @@ class StopPanel : public QWidget {
    protected:
     /// Arrow keys and, in the field in hand, the wheel.
     bool eventFilter(QObject* watched, QEvent* event) override;
+    void showEvent(QShowEvent* event) override;
 
    private:
     /// How far a number goes at a time: by a ratio where there is one, else by a difference, which
