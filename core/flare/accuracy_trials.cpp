@@ -151,20 +151,21 @@ class Trials {
                 [&lens = lens_, stop = stop_, request, scene] {
                     auto spectra = std::make_shared<CompiledSpectra>();
                     spectra->of(lens, request.spectrum);
-                    return std::function([&lens, stop, request, scene,
-                                          spectra]() -> std::optional<FlareImage> {
-                        const PatternOf point = [](const LightSize&) { return LightPattern{}; };
-                        const DrawGhosts draw = render_planned;
-                        const SceneView view{lens, scene, *spectra, point, draw};
-                        auto ghosts = ghosts_layer(view, request, stop);
-                        const auto veil = ghosts ? veil_layer(view, request, stop, &*ghosts) : std::nullopt;
-                        if (!veil) return std::nullopt;
-                        for (std::size_t i = 0; i < veil->irradiance.size(); ++i)
-                            ghosts->irradiance[i] += veil->irradiance[i];
-                        for (std::size_t i = 0; i < veil->rgb.size(); ++i)
-                            ghosts->rgb[i] += veil->rgb[i];
-                        return ghosts;
-                    });
+                    return std::function(
+                        [&lens, stop, request, scene, spectra]() -> std::optional<FlareImage> {
+                            const PatternOf point = [](const LightSize&) { return LightPattern{}; };
+                            const DrawGhosts draw = render_planned;
+                            const SceneView view{lens, scene, *spectra, point, draw};
+                            auto ghosts = ghosts_layer(view, request, stop);
+                            const auto veil =
+                                ghosts ? veil_layer(view, request, stop, &*ghosts) : std::nullopt;
+                            if (!veil) return std::nullopt;
+                            for (std::size_t i = 0; i < veil->irradiance.size(); ++i)
+                                ghosts->irradiance[i] += veil->irradiance[i];
+                            for (std::size_t i = 0; i < veil->rgb.size(); ++i)
+                                ghosts->rgb[i] += veil->rgb[i];
+                            return ghosts;
+                        });
                 }};
     }
     template <class Set>
