@@ -5,6 +5,7 @@
 
 #include "core/fit/fit_descent.h"
 #include "core/fit/fit_run.h"
+#include "core/fit/fit_statistics.h"
 
 namespace ghostlight {
 namespace {
@@ -12,8 +13,6 @@ namespace {
 /// Distances from the fit in standard errors, to either side.
 constexpr std::array<double, 6> steps = {0.5, 1.0, 1.5, 2.0, 2.5, 3.0};
 constexpr double chi2_of_95_percent = 3.841;
-/// Of a sample, as the errors have it: how well a ghost's place is known.
-constexpr double place_error = 0.02;
 constexpr int profile_iterations = 10, bootstrap_iterations = 8;
 
 /// Where a curve of √χ² crosses the 95 % line, going outwards; the last value where it does not.

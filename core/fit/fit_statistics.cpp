@@ -20,9 +20,6 @@ void correlate(const RowMatrix& from, int width, int height, bool along_x, RowMa
             }
 }
 
-/// Of a sample: how well the model's points and chords place a ghost, and its rim.
-constexpr double place_error = 0.02;
-
 /// A ghost's light in one channel over its patch.
 std::vector<double> light_of(const GhostBasis& basis, const GhostWeights& weights,
                              std::size_t channel) {

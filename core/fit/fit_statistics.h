@@ -9,6 +9,9 @@
 
 namespace ghostlight {
 
+/// Of a sample: how well the model's points and chords place a ghost, and its rim.
+inline constexpr double place_error = 0.02;
+
 /// Information of the photographs at the evaluator's last point, in units of the priors.
 struct FitInformation {
     Eigen::MatrixXd hessian;  ///< Jᵀ W J + 1, W the loss's weights

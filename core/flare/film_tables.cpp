@@ -30,6 +30,19 @@ std::vector<float> cosines_in(double n, double main_n, const std::vector<float>&
     return own;
 }
 
+/// Along one path: a table for each step, `wavelengths` values a ray to be written.
+SpectralWeightsView view_of(const Bundle<float>& rays, const std::vector<const float*>& tables,
+                            std::size_t wavelengths, std::vector<float>& values) {
+    return {.cosines = rays.cosines.data(),
+            .stride = rays.cosine_stride,
+            .step_count = tables.size(),
+            .count = rays.size(),
+            .tables = tables.data(),
+            .nodes = nodes,
+            .wavelengths = wavelengths,
+            .weights = values.data()};
+}
+
 }  // namespace
 
 FilmTables::FilmTables(const std::vector<OpticalSystem>& systems, unsigned threads,
@@ -187,14 +200,7 @@ void FilmTables::weights(const TracePath<float>& path, const Bundle<float>& rays
                          std::vector<float>& weights) const {
     const std::vector<const float*> tables = tables_of(path, values_);
     weights.resize(rays.size() * stride_);
-    const SpectralWeightsView view{.cosines = rays.cosines.data(),
-                                   .stride = rays.cosine_stride,
-                                   .step_count = path.steps.size(),
-                                   .count = rays.size(),
-                                   .tables = tables.data(),
-                                   .nodes = nodes,
-                                   .wavelengths = stride_,
-                                   .weights = weights.data()};
+    const SpectralWeightsView view = view_of(rays, tables, stride_, weights);
     GHOSTLIGHT_DISPATCH(spectral_weights, view);
     if (path.absorbs && !absorption_per_mm_.empty() && !rays.lengths_mm.empty())
         absorb(path, rays, weights);
@@ -204,14 +210,7 @@ void FilmTables::polarisation(const TracePath<float>& path, const Bundle<float>&
                               std::vector<float>& factors) const {
     const std::vector<const float*> tables = tables_of(path, s_shares_);
     factors.resize(rays.size() * stride_);
-    const SpectralWeightsView view{.cosines = rays.cosines.data(),
-                                   .stride = rays.cosine_stride,
-                                   .step_count = path.steps.size(),
-                                   .count = rays.size(),
-                                   .tables = tables.data(),
-                                   .nodes = nodes,
-                                   .wavelengths = stride_,
-                                   .weights = factors.data()};
+    const SpectralWeightsView view = view_of(rays, tables, stride_, factors);
     GHOSTLIGHT_DISPATCH(spectral_states, view);
 }
 
