@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/flare/fresnel.h"
 #include "core/units.h"
@@ -31,14 +32,23 @@ struct Cuts {
 };
 Cuts cuts_of(const StopMask& stop, const Bundle<float>& rays) {
     Cuts cuts;
+    // Blades lie between two circles: of most rays these know.
+    const double outer = std::pow(stop.semi_diameter_mm, 2);
+    const double inner =
+        stop.blades < 3 ? outer : outer * std::pow(std::cos(std::numbers::pi / stop.blades), 2);
+    const auto passes = [&](float u, float v) {
+        const double square = static_cast<double>(u * u + v * v);
+        if (stop.picture == nullptr && square > outer) return false;
+        if (stop.picture == nullptr && square < inner) return true;
+        return stop_passes(stop, static_cast<double>(u), static_cast<double>(v));
+    };
     const auto crossings = static_cast<std::size_t>(rays.stop_crossings);
     cuts.crossings.assign(crossings, false);
     for (std::size_t k = 0; k < rays.size(); ++k) {
         if (rays.margin[k] < 0.0F) continue;
         std::size_t stopped = 0, by = 0;
         for (std::size_t s = 0; s < crossings && stopped < 2; ++s)
-            if (!stop_passes(stop, static_cast<double>(rays.stop_u_mm[s][k]),
-                             static_cast<double>(rays.stop_v_mm[s][k]))) {
+            if (!passes(rays.stop_u_mm[s][k], rays.stop_v_mm[s][k])) {
                 ++stopped;
                 by = s;
             }
@@ -98,21 +108,22 @@ double GhostRims::changed_px() const {
     return change_per_w * most;
 }
 
-double GhostRims::changed_share() const {
-    // A rim of two semi-diameters per area, as deep as w = 1 is; at most all of it moves.
-    auto share = [](const GhostFringes& rim) {
-        return shows(rim) ? 2.0 * change_per_w / std::sqrt(2.0 * rim.fresnel_number) : 0.0;
+double GhostRims::changed_share(const EdgeFringes& edge) const {
+    // A rim's length over its area, as deep as w = 1 is; at most all of it changes, there and here.
+    auto share = [&](const GhostFringes& rim, double length) {
+        return shows(rim)
+                   ? length * edge.changed_w(rim.px_per_w()) / std::sqrt(2.0 * rim.fresnel_number)
+                   : 0.0;
     };
-    double sum = share(surface);
-    for (const GhostFringes& rim : crossings) sum += share(rim);
-    return std::min(1.0, sum);
+    double sum = share(surface, 2.0);
+    for (const GhostFringes& rim : crossings) sum += share(rim, stop_rim);
+    return std::min(2.0, sum);
 }
 
-GhostRims ghost_rims(const OpticalSystem& system, const ProbedGhost& ghost, double field_deg,
-                     double pitch_mm) {
+GhostRims ghost_rims(const OpticalSystem& system, const StopMask& stop, const ProbedGhost& ghost,
+                     double field_deg, double pitch_mm) {
     const GhostPath& path = ghost.planned.path;
     const Bundle<float>& rays = ghost.grid.half;
-    StopMask stop = system.stop_mask;
     const Cuts cuts = cuts_of(stop, rays);
     const std::vector<ParaxialMeeting> meetings = paraxial_meetings(system, path);
     const ParaxialGhost whole = paraxial_ghost(system, path);
@@ -126,6 +137,7 @@ GhostRims ghost_rims(const OpticalSystem& system, const ProbedGhost& ghost, doub
                           pitch_mm);
     };
     GhostRims rims;
+    if (stop.blades >= 3) rims.stop_rim = 2.0 / std::cos(std::numbers::pi / stop.blades);
     for (const ParaxialMeeting& at : meetings)
         if (at.at_stop) {
             const std::size_t s = rims.crossings.size();

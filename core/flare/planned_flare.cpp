@@ -96,18 +96,20 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
             if (!request.ringing) release(probed[batch.first + k]);
         }
     }
+    FringesLeftOut fringes;
     if (request.ringing) {
         const auto rang = Clock::now();
         const auto rung = ringing_of(scene, request, planner, probed, stop);
         if (!rung || !draw_ringing(*rung, frame, request.threads, stop, picture))
             return std::nullopt;
-        for (const RungMesh& mesh : *rung) image.ringing.push_back(mesh.report);
+        fringes = take_reports(*rung, image);
         image.times.ringing_ms = ms_since(rang);
     }
     if (!picture.finish(request.threads, stop, image) ||
         (highlight && !finish_highlight(*highlight, request.threads, stop, image)))
         return std::nullopt;
     image.plan = plan_of(scene, request, probed);
+    image.plan.fringes_left_out = fringes;
     image.times.total_ms = ms_since(began);
     return image;
 }
