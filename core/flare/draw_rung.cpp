@@ -44,22 +44,32 @@ Range well_above(float a, float per_step, float least, const Range& of) {
     return range;
 }
 
-/// A profile's means over 2 · half_steps + 1 neighbouring values' middle parts: what a pixel has
-/// that spans twice so many steps; from half_steps before the first value to as many after the
-/// last.
+/// Values of a table for each step of a profile: read without interpolation, they are off by no
+/// more than a quarter of a step's slope.
+constexpr int finer = 2;
+
+/// A profile's means over 2 · half_steps of its steps, what a pixel has that spans so many; from
+/// half_steps before its first value to as many after its last.
 std::vector<RimColor> means_of(const RimProfile& profile, int half_steps) {
-    if (half_steps == 0) return profile.values;
     const int count = static_cast<int>(profile.values.size());
     const float step_w = 1.0F / profile.steps_per_w;
-    std::vector<RimColor> means(idx(count + 2 * half_steps));
-    for (int k = 0; k < count + 2 * half_steps; ++k) {
+    const auto mean = [&](int k) {
+        if (half_steps == 0) return profile.values[idx(k)];
         const int beyond = std::max(0, k - (count - 1));
         const RimColor& high = profile.below[idx(std::min(k, count - 1))];
         const RimColor& low = profile.below[idx(std::max(0, k - 2 * half_steps))];
+        RimColor value;
         for (std::size_t c = 0; c < rim_channels; ++c)
-            means[idx(k)][c] = (high[c] + static_cast<float>(beyond) * step_w - low[c]) /
-                               (2.0F * static_cast<float>(half_steps) * step_w);
-    }
+            value[c] = (high[c] + static_cast<float>(beyond) * step_w - low[c]) /
+                       (2.0F * static_cast<float>(half_steps) * step_w);
+        return value;
+    };
+    const int last = count + 2 * half_steps - 1;
+    std::vector<RimColor> means(idx(finer * last + 1));
+    for (int k = 0; k <= last; ++k) means[idx(finer * k)] = mean(k);
+    for (std::size_t k = 1; k + 1 < means.size(); k += finer)
+        for (std::size_t c = 0; c < rim_channels; ++c)
+            means[k][c] = 0.5F * (means[k - 1][c] + means[k + 1][c]);
     return means;
 }
 
@@ -154,14 +164,16 @@ void RungDrawing::place(const RungTriangle& triangle) {
     if (!(std::abs(twice_px2) > thin_px2) || placed.first_row >= placed.last_row) return;
     placed.x = x[0];
     placed.y = y[0];
-    for (std::size_t s = 0; s < 3; ++s) {
-        // From the lower end, so that both neighbours compute the same.
-        const std::size_t t = (s + 1) % 3;
-        const std::size_t from = y[s] < y[t] ? s : t, to = y[s] < y[t] ? t : s;
-        Side& side = placed.sides[s];
-        side = {y[from], y[to], x[from], 0.0};
-        if (y[to] > y[from]) side.step = (x[to] - x[from]) / (y[to] - y[from]);
-    }
+    std::array<std::size_t, 3> up{0, 1, 2};
+    std::ranges::sort(up, {}, [&](std::size_t n) { return y[n]; });
+    const auto side = [&](std::size_t from, std::size_t to) {
+        const double rise = y[to] - y[from];
+        return Side{y[from], x[from], rise > 0.0 ? (x[to] - x[from]) / rise : 0.0};
+    };
+    placed.long_side = side(up[0], up[2]);
+    placed.low_side = side(up[0], up[1]);
+    placed.high_side = side(up[1], up[2]);
+    placed.middle = y[up[1]];
     const double inverse = 1.0 / twice_px2;
     const auto linear = [&](const float(&at)[3]) {
         const double d1 = static_cast<double>(at[1] - at[0]);
@@ -203,7 +215,8 @@ RungDrawing::Rim RungDrawing::rim_of(std::uint32_t group, const Linear& w) {
         auto& table = tables_[{group, half_steps}];
         if (table.empty()) table = means_of(profile, half_steps);
         rim.table = &table;
-        rim.first_step = profile.shadow * profile.steps_per_w + static_cast<float>(half_steps);
+        rim.first_step =
+            finer * (profile.shadow * profile.steps_per_w + static_cast<float>(half_steps)) + 0.5F;
         half_w = static_cast<float>(half_steps) / profile.steps_per_w;
     }
     const float ramp = 0.5F / rim.per_ramp;
@@ -238,14 +251,10 @@ void RungDrawing::draw(int band) const {
         const int last_row = std::min(to, triangle.last_row);
         for (int row = std::max(from, triangle.first_row); row < last_row; ++row) {
             const double middle = row + 0.5;
-            double left = 1e300, right = -1e300;
-            for (const Side& side : triangle.sides) {
-                if ((side.low <= middle) == (side.high <= middle)) continue;
-                const double x = side.column + (middle - side.low) * side.step;
-                left = std::min(left, x);
-                right = std::max(right, x);
-            }
-            if (!(left < right)) continue;
+            const double one = triangle.long_side.at(middle);
+            const double other = middle < triangle.middle ? triangle.low_side.at(middle)
+                                                          : triangle.high_side.at(middle);
+            const double left = std::min(one, other), right = std::max(one, other);
             // Half open, so that neighbours share no pixel.
             const double most = canvas_.size.width_px + 1.0;
             const int first = static_cast<int>(std::ceil(std::clamp(left, 0.0, most) - 0.5));
@@ -306,11 +315,11 @@ void RungDrawing::draw_piece(const Placed& triangle, int row, int first, int las
                 RungRimView{nullptr, 0.0F, 0.0F, 0.0F, 0.5F + w * rim.per_ramp,
                             rim.w.right * rim.per_ramp, rim.kind == RimKind::sharp});
             if (rim.table == nullptr) continue;
-            const float per_w = mesh_->groups[rim.group].profile.steps_per_w;
+            const float per_w = finer * mesh_->groups[rim.group].profile.steps_per_w;
             own.profile = rim.table->front().data();
             own.place = rim.first_step + w * per_w;
             own.place_step = rim.w.right * per_w;
-            own.last = (static_cast<float>(rim.table->size()) - 1.0F) * 0.99999F;
+            own.last = static_cast<float>(rim.table->size()) - 0.5F;
         }
         view.rims = rims.data();
         view.rim_count = rims.size();

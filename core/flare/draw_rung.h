@@ -47,10 +47,11 @@ class RungDrawing {
     struct Linear {
         float first = 0.0F, right = 0.0F, up = 0.0F;  ///< at the first corner; per pixel
     };
-    /// A side that crosses rows, from its lower end.
+    /// A side that crosses rows, from its lower end, so that both neighbours compute the same.
     struct Side {
-        double low = 0.0, high = 0.0;     ///< rows
-        double column = 0.0, step = 0.0;  ///< where it begins; per row
+        double row = 0.0, column = 0.0;  ///< where it begins
+        double step = 0.0;               ///< columns per row
+        double at(double middle) const { return column + (middle - row) * step; }
     };
     /// A rim over a triangle: w is `light` and more where it is nothing but light, −`dark` and
     /// less where it is dark, in the picture, too.
@@ -67,7 +68,8 @@ class RungDrawing {
     struct Placed {
         double x = 0.0, y = 0.0;  ///< its first corner
         int first_row = 0, last_row = 0;
-        Side sides[3];
+        Side long_side, low_side, high_side;  ///< over all rows, below and above `middle`
+        double middle = 0.0;
         Linear light, u, v;
         std::uint32_t first_rim = 0, rim_count = 0;
     };

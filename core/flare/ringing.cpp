@@ -40,10 +40,11 @@ struct Candidate {
 double work_of(const ProbedGhost& ghost, const GhostRims& rims, const PixelFrame& frame) {
     constexpr double prepared_px = 20'000.0, reach_w = 5.8;
     const auto [least, most] = ghost.planned.spot.sigmas_mm();
-    // Around an even ellipse of these moments, as far as that may lie on the picture.
+    // Around an even ellipse of these moments, as far as that lies on the picture.
     const double around_px =
         2.0 * std::numbers::pi * std::numbers::sqrt2 * std::hypot(least, most) / frame.pitch_mm;
-    const double length_px = std::min(around_px, 2.0 * (frame.width_px + frame.height_px));
+    const double length_px =
+        rims.on_frame * std::min(around_px, 2.0 * (frame.width_px + frame.height_px));
     return prepared_px +
            length_px * reach_w * rims.px_per_w() * std::ldexp(1.0, -2 * ghost.planned.level);
 }
@@ -168,9 +169,8 @@ std::optional<std::vector<RungMesh>> ringing_of(const FlareScene& scene,
     const EdgeFringes edge(scene);
     if (!parallel_for(candidates.size(), request.threads, stop, [&](std::size_t k) {
             Candidate& own = candidates[k];
-            own.rims = ghost_rims(system, planner.placement().stop_mask(), *own.ghost,
-                                  request.light.field_deg, frame.pitch_mm);
-            own.changed_mm2 = own.rims.changed_share(edge) * own.ghost->planned.flux_mm2;
+            own.rims = ghost_rims(system, planner.placement(), *own.ghost, request.light.field_deg);
+            own.changed_mm2 = own.rims.changed_share(edge) * own.ghost->planned.whole_flux_mm2;
             own.work = work_of(*own.ghost, own.rims, frame);
         }))
         return std::nullopt;
@@ -199,14 +199,12 @@ RungMesh ringing_of(const FlareScene& scene, const FlareRequest& request,
                     std::size_t ghosts, const std::stop_token& stop) {
     const OpticalSystem& system = scene.system();
     if (is_lopsided(system, ghost.planned.path, request.light)) return {};
-    const GhostRims rims =
-        ghost_rims(system, planner.placement().stop_mask(), ghost, request.light.field_deg,
-                   planner.placement().frame().pitch_mm);
+    const GhostRims rims = ghost_rims(system, planner.placement(), ghost, request.light.field_deg);
     const EdgeFringes edge(scene);
     const double least_mm2 =
         left_out_share * request.tolerance * layer_flux_mm2 / static_cast<double>(ghosts);
     RungMesh mesh;
-    mesh.left_out_mm2 = rims.changed_share(edge) * ghost.planned.flux_mm2;
+    mesh.left_out_mm2 = rims.changed_share(edge) * ghost.planned.whole_flux_mm2;
     if (ghosts > 1 && mesh.left_out_mm2 < least_mm2) return mesh;
     return rung_mesh(scene, planner, edge, ghost, rims, stop);
 }

@@ -23,76 +23,94 @@ namespace ghostlight::GHOSTLIGHT_JOIN(kernels_, GHOSTLIGHT_ISA) {
         return low < most ? low : most;
     }
 
-    /// A rim's places in its table and its shares, pixel by pixel; for the compiler to vectorise.
-    struct Along {
-        int step[rung_chunk];
-        float part[rung_chunk], cover[rung_chunk];
+    /// Loops over pixels, for the compiler to vectorise, go on to a whole vector.
+    constexpr std::size_t padding = 16;
+    static_assert(rung_chunk % padding == 0);
+    std::size_t padded(std::size_t count) { return (count + padding - 1) / padding * padding; }
 
-        Along(const RungRimView& rim, std::size_t count) {
-            for (std::size_t k = 0; k < count; ++k) {
+    /// A rim's places in its table, pixel by pixel.
+    struct Places {
+        int step[rung_chunk];
+
+        Places(const RungRimView& rim, std::size_t count) {
+            for (std::size_t k = 0; k < padded(count); ++k) {
                 const auto at = static_cast<float>(static_cast<int>(k));
-                const float place = held(rim.place + at * rim.place_step, rim.last);
-                step[k] = static_cast<int>(place);
-                part[k] = place - static_cast<float>(step[k]);
-                cover[k] = held(rim.cover + at * rim.cover_step, 1.0F);
+                step[k] = static_cast<int>(held(rim.place + at * rim.place_step, rim.last));
             }
         }
-        Color profile(const float* table, std::size_t k) const {
-            const float* from = table + 4 * static_cast<std::size_t>(step[k]);
-            const Color low = load(from), high = load(from + 4);
-            return low + part[k] * (high - low);
+        Color in(const float* table, std::size_t k) const {
+            return load(table + 4 * static_cast<std::ptrdiff_t>(step[k]));
+        }
+    };
+
+    /// Light, and light times the share of each pixel inside of all rims.
+    struct Lights {
+        float whole[rung_chunk], covered[rung_chunk];
+
+        explicit Lights(const RungRowView& row) {
+            for (std::size_t k = 0; k < padded(row.count); ++k) {
+                const auto at = static_cast<float>(static_cast<int>(k));
+                whole[k] = covered[k] = row.light + at * row.light_step;
+            }
+        }
+        void cover(const RungRimView& rim, std::size_t count) {
+            for (std::size_t k = 0; k < padded(count); ++k) {
+                const auto at = static_cast<float>(static_cast<int>(k));
+                covered[k] *= held(rim.cover + at * rim.cover_step, 1.0F);
+            }
         }
     };
 
     void add_one(const RungRowView& row) {
-        const Along rim(row.rims[0], row.count);
+        Lights light(row);
+        light.cover(row.rims[0], row.count);
+        const Places rim(row.rims[0], row.count);
         const float* table = row.rims[0].profile;
         const Color color = load(row.color);
         for (std::size_t k = 0; k < row.count; ++k) {
-            const float light =
-                row.light + static_cast<float>(static_cast<int>(k)) * row.light_step;
             float* to = row.pixels + 4 * k;
-            store(load(to) + (rim.profile(table, k) - rim.cover[k]) * (light * color), to);
+            const Color change = light.whole[k] * rim.in(table, k) - light.covered[k];
+            store(load(to) + change * color, to);
         }
     }
 
     void add_two(const RungRowView& row) {
-        const Along first(row.rims[0], row.count), second(row.rims[1], row.count);
+        Lights light(row);
+        light.cover(row.rims[0], row.count);
+        light.cover(row.rims[1], row.count);
+        const Places first(row.rims[0], row.count), second(row.rims[1], row.count);
         const float *one = row.rims[0].profile, *two = row.rims[1].profile;
         const Color color = load(row.color);
         for (std::size_t k = 0; k < row.count; ++k) {
-            const float light =
-                row.light + static_cast<float>(static_cast<int>(k)) * row.light_step;
             float* to = row.pixels + 4 * k;
             const Color change =
-                first.profile(one, k) * second.profile(two, k) - first.cover[k] * second.cover[k];
-            store(load(to) + change * (light * color), to);
+                light.whole[k] * first.in(one, k) * second.in(two, k) - light.covered[k];
+            store(load(to) + change * color, to);
         }
     }
 
     void add_any(const RungRowView& row) {
         const Color color = load(row.color);
+        Lights light(row);
         Color inside[rung_chunk];
-        float covered[rung_chunk];
-        for (std::size_t k = 0; k < row.count; ++k) {
-            inside[k] = row.mask == nullptr ? color : load(row.mask + 4 * k);
-            covered[k] = 1.0F;
-        }
+        for (std::size_t k = 0; k < row.count; ++k)
+            inside[k] = light.whole[k] * (row.mask == nullptr ? color : load(row.mask + 4 * k));
         for (std::size_t r = 0; r < row.rim_count; ++r) {
             const RungRimView& rim = row.rims[r];
-            const Along along(rim, row.count);
-            for (std::size_t k = 0; k < row.count; ++k) covered[k] *= along.cover[k];
-            if (rim.profile != nullptr)
-                for (std::size_t k = 0; k < row.count; ++k)
-                    inside[k] *= along.profile(rim.profile, k);
-            else if (rim.is_sharp)
-                for (std::size_t k = 0; k < row.count; ++k) inside[k] *= along.cover[k];
+            light.cover(rim, row.count);
+            if (rim.profile != nullptr) {
+                const Places places(rim, row.count);
+                for (std::size_t k = 0; k < row.count; ++k) inside[k] *= places.in(rim.profile, k);
+            } else if (rim.is_sharp) {
+                for (std::size_t k = 0; k < row.count; ++k) {
+                    const auto at = static_cast<float>(static_cast<int>(k));
+                    inside[k] *= held(rim.cover + at * rim.cover_step, 1.0F);
+                }
+            }
         }
         for (std::size_t k = 0; k < row.count; ++k) {
-            const float light =
-                row.light + static_cast<float>(static_cast<int>(k)) * row.light_step;
             float* to = row.pixels + 4 * k;
-            store(load(to) + light * (inside[k] - covered[k] * color), to);
+            store(load(to) + (inside[k] - light.covered[k] * color), to);
         }
     }
 

@@ -11,9 +11,9 @@ inline constexpr std::size_t rung_chunk = 128;
 
 /// One rim along a row of pixels.
 struct RungRimView {
-    const float* profile;     ///< 4 values a step, two steps at least; null: as `is_sharp` says
-    float place, place_step;  ///< of the first pixel's middle, in steps; from pixel to pixel
-    float last;               ///< place just below the last step's
+    const float* profile;     ///< 4 values a step; null: as `is_sharp` says
+    float place, place_step;  ///< of the first pixel's middle, in steps, cut off; per pixel
+    float last;               ///< place that still is the last step
     float cover, cover_step;  ///< share of the pixel inside, before it is held within 0 and 1
     bool is_sharp;            ///< without a profile: it clips, too; else the mask has it already
 };

@@ -12,15 +12,17 @@ namespace {
 /// Cells across a ghost's beam, its shadow's side included: of those, as many as draw a round rim
 /// by chords that are off by at most so much of w, and no fewer than the ghost itself has. Straight
 /// blades are no rounder than the map.
-constexpr int fewest_cells = 20, fewest_straight_cells = 14, most_cells = 40;
+constexpr int fewest_cells = 20, fewest_straight_cells = 12, most_cells = 40;
 constexpr double most_chord_w = 0.025;
 /// Below this Fresnel number the rim's curvature shows in the fringes: the mask is propagated.
 constexpr double whole_mask_below = 20.0;
 /// A rim drawn small and brought up bilinearly is a ramp this many of its pixels long.
 constexpr double coarse_rim_px = 2.2;
-/// Pixels per w of a level: colours' fringes are then resolved up to where they run into one
-/// another, one wavelength's a good deal further.
-constexpr double least_px_per_w = 5.0, least_px_per_w_gray = 8.0;
+/// Pixels per w of a level. Blurred by a level's σ = p/2 px, a profile f is off by p²/8 ∫|f''|,
+/// four for white light, a sharp edge by 0.4 p, which the ghost's allowance covers: the profile is
+/// as good from 1.25 of the level's pixels per w on. Twice that, and more for one wavelength's many
+/// fringes.
+constexpr double least_px_per_w = 2.5, least_px_per_w_gray = 5.0;
 
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 
