@@ -293,6 +293,7 @@ void MainWindow::connect_document() {
 void MainWindow::connect_jobs() {
     connect(jobs_.get(), &Jobs::flare_ready, this, &MainWindow::show_picture);
     connect(jobs_.get(), &Jobs::table_ready, this, [this](const auto& table) {
+        ghosts_->set_stop_is_dirty(!document_.lens().stop.dirt.is_clean());
         ghosts_->set_table(table);
         status_->show_table(*table);
     });

@@ -414,6 +414,11 @@ void GhostPanel::set_refining(double share) {
     show_state();
 }
 
+void GhostPanel::set_stop_is_dirty(bool dirty) {
+    stop_is_dirty_ = dirty;
+    show_state();
+}
+
 void GhostPanel::set_failed() {
     failed_ = true;
     is_working_ = false;
@@ -548,7 +553,17 @@ void GhostPanel::show_state() {
     } else if (failed_) {
         state += tr(" · of the last lens that could be traced");
     }
+    if (stop_is_dirty_) {
+        state += tr(" · without the stop's dirt");
+    }
     header_->set_state(state);
+    header_->setToolTip(
+        stop_is_dirty_
+            ? tr("Ghosts are listed, and but for those near focus drawn, as through a clean "
+                 "stop: what its\ndirt takes of one depends on where its beam meets the stop. "
+                 "Of the direct light the Stop\npanel says how much passes; three crossings "
+                 "take about three times as much as one.")
+            : QString());
 }
 
 }  // namespace ghostlight

@@ -47,6 +47,8 @@ class GhostPanel : public QWidget {
     /// A newer table is on its way; `share` of it is done.
     void set_refining(double share);
     void set_failed();
+    /// Whether dirt lies on the stop, which the table does not have.
+    void set_stop_is_dirty(bool dirty);
     void clear();
     void copy_rows() const;
 
@@ -91,6 +93,7 @@ class GhostPanel : public QWidget {
     QStackedWidget* pages_;
     double progress_ = 0.0;
     bool failed_ = false;
+    bool stop_is_dirty_ = false;
     bool selecting_ = false;
     bool in_groups_ = false;  ///< what is chosen was chosen there
 };

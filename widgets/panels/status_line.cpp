@@ -81,6 +81,8 @@ void StatusLine::show_picture(const FlarePicture& picture, double upload_ms) {
         picture_->setToolTip(
             tr("Each ghost from a few rays about its own centre ray, to see something at once. The "
                "error is estimated from those rays; light that enters elsewhere is not in it."));
+    } else if (picture.image->plan.ghosts.empty()) {
+        show_without_plan(picture.image->ghosts);
     } else {
         show_plan(picture.image->plan);
     }
@@ -135,6 +137,24 @@ void StatusLine::show_plan(const FlarePlan& plan) {
             .arg(plan.count(GhostFate::left_out))
             .arg(significant(100.0 * plan.left_out_share(), 2),
                  significant(100.0 * plan.not_modelled, 2)));
+}
+
+void StatusLine::show_without_plan(std::size_t ghosts) {
+    if (ghosts == 0) {  // the layer is off
+        picture_->set_text({});
+        picture_->setToolTip({});
+        return;
+    }
+    const QString reason =
+        document_.lens().stop.image
+            ? tr("the stop has an image")
+            : tr("the sensor reflects, and the light is not above or below the axis");
+    picture_->set_text(
+        tr("*%n ghost(s)* by the uniform method: %1", nullptr, static_cast<int>(ghosts))
+            .arg(reason));
+    picture_->setToolTip(
+        tr("Every ghost on an even grid, as fine as its map asks for. Only the planned method "
+           "estimates the picture's error."));
 }
 
 void StatusLine::show_engine(const EngineState& state) {

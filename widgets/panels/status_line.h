@@ -42,6 +42,7 @@ class StatusLine : public QWidget {
     void follow_document();
     void show_saved();
     void show_plan(const FlarePlan& plan);
+    void show_without_plan(std::size_t ghosts);
 
     Document& document_;
     TabularLabel* table_;

@@ -25,6 +25,7 @@ class Actions;
 class Document;
 class EmptyState;
 class PanelHeader;
+struct StopPictures;
 
 /// The stop: its blades, its image and its dirt, each with unit, range and reset; above them the
 /// opening and the starburst that it makes, worked out on another thread.
@@ -93,12 +94,7 @@ class StopPanel : public QWidget {
     void follow_document();
     void request();
     void work_on(const Request& request, const std::stop_token& stop);
-    /// What is worked out on the other thread.
-    struct Shown {
-        QImage opening, starburst;
-        QString state, statistics, reason;
-    };
-    void show_pictures(const Shown& shown, std::uint64_t serial);
+    void show_pictures(const StopPictures& shown, std::uint64_t serial);
     void show_reason(const QString& reason);
 
     Document& document_;

@@ -26,6 +26,10 @@ QString stop_statistics(const Stop& stop, const OpticalSystem& system) {
     const int arms = starburst_arms(stop);
     lines << (arms > 0 ? StopStatistics::tr("%n arm(s) of the starburst", nullptr, arms)
                        : StopStatistics::tr("round: rings instead of arms"));
+    if (stop.image) {
+        lines << StopStatistics::tr(
+            "with an image, ghosts are drawn by the uniform method, whose error is not estimated");
+    }
     if (stop.dirt.is_clean()) {
         return lines.join('\n');
     }
