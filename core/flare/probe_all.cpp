@@ -62,8 +62,9 @@ void share_among(std::vector<ProbedGhost>& ghosts, double tolerance) {
     double total = 0.0, left_out = 0.0;
     for (const ProbedGhost& ghost : ghosts) {
         const bool drawn = ghost.planned.fate == GhostFate::drawn;
-        shares.push_back({drawn ? ghost.planned.flux_mm2 : 0.0,
-                          ghost.errors.grid_mm2 + ghost.errors.merging_mm2});
+        shares.push_back(
+            {drawn ? ghost.planned.flux_mm2 : 0.0,
+             ghost.errors.grid_mm2 + ghost.errors.colors.error(1) * ghost.planned.flux_mm2});
         total += shares.back().flux_mm2;
         if (ghost.planned.fate == GhostFate::left_out) left_out += ghost.planned.bound_mm2;
     }

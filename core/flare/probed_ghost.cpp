@@ -20,12 +20,8 @@ constexpr std::size_t compared_rays = 8;  ///< of a probe, with double precision
 constexpr double few_enough = 6.5;
 /// Of a ghost's allowance, for interpolating polarisation.
 constexpr double polarised_allowed = 0.02;
-constexpr int shift_cells = 6;  ///< of the grids that lateral colour is measured on
 /// Of the light in singular cells: a root drawn as a line is off by as much, over a cell.
 constexpr double singular_factor = 0.3;
-/// Of the shift between the outer geometry wavelengths times the contrast: most of the light lies
-/// well within them, and shifts along a rim do not matter. Calibrated likewise.
-constexpr double merging_factor = 0.02;
 
 }  // namespace
 
@@ -38,32 +34,31 @@ GhostPlanner::GhostPlanner(const FlareScene& scene, const LightDirection& light,
       beam_(beam_frame({light.field_deg, 90.0})),
       entrance_(entrance_box(scene.system(), beam_)) {}
 
-void GhostPlanner::trace(const ProbedGhost& ghost, std::size_t node, Weights weights,
+void GhostPlanner::trace(const ProbedGhost& ghost, const OpticalSystem& system, Weights weights,
                          Bundle<float>& rays) const {
-    const OpticalSystem& system = scene_.geometry[node];
     if (ghost.in_double)
         trace_in_double(system, ghost.planned.path, beam_, weights, rays);
     else
         trace_bundle(trace_path<float>(system, ghost.planned.path), beam_, weights, rays);
 }
 
-MirrorGrid GhostPlanner::traced(const ProbedGhost& ghost, std::size_t node, int cells,
+MirrorGrid GhostPlanner::traced(const ProbedGhost& ghost, const OpticalSystem& system, int cells,
                                 bool keep_cosines, Weights weights) const {
     MirrorGrid grid;
     grid.box = ghost.planned.box;
     grid.cells = cells;
     grid.half.keep_cosines = keep_cosines;
     lay_mirrored(grid);
-    trace(ghost, node, weights, grid.half);
+    trace(ghost, system, weights, grid.half);
     grid.is_polarised = weights == Weights::polarised;
-    if (!economies_.half_beams) trace_other_half(ghost, node, weights, grid);
+    if (!economies_.half_beams) trace_other_half(ghost, system, weights, grid);
     return grid;
 }
 
-void GhostPlanner::trace_other_half(const ProbedGhost& ghost, std::size_t node, Weights weights,
-                                    MirrorGrid& grid) const {
+void GhostPlanner::trace_other_half(const ProbedGhost& ghost, const OpticalSystem& system,
+                                    Weights weights, MirrorGrid& grid) const {
     lay_other_half(grid);
-    trace(ghost, node, weights, grid.other);
+    trace(ghost, system, weights, grid.other);
     take_mean_of_halves(grid);
 }
 
@@ -81,7 +76,7 @@ void GhostPlanner::mind_rounding(ProbedGhost& ghost) const {
     }
     ghost.planned.look.in_double = ghost.in_double;
     if (!ghost.in_double) return;
-    trace(ghost, scene_.main, Weights::none, ghost.grid.half);
+    trace(ghost, system, Weights::none, ghost.grid.half);
     ghost.planned.rays += ghost.grid.half.size();
 }
 
@@ -124,7 +119,7 @@ void GhostPlanner::weigh(ProbedGhost& ghost) const {
     const auto trace = trace_path<float>(scene_.system(), planned.path);
     mind_rounding(ghost);
     if (!economies_.half_beams) {
-        trace_other_half(ghost, scene_.main, Weights::none, ghost.grid);
+        trace_other_half(ghost, scene_.system(), Weights::none, ghost.grid);
         planned.rays += ghost.grid.other.size();
     }
     // What polarisation may be off by without being seen, where that is known.
@@ -133,14 +128,19 @@ void GhostPlanner::weigh(ProbedGhost& ghost) const {
             ? polarised_allowed * ghost.nearby->allowance_mm2 / ghost.nearby->flux_mm2
             : 0.0;
     ghost.polarised = polarised_share(scene_, trace, beam_, planned.box, allowed);
-    ColorShare colors = color_share(scene_, planned.path, beam_, ghost.polarised);
-    ghost.weights = ghost_weights(scene_, trace, ghost.grid, ghost.polarised, colors.ratio);
-    planned.rays +=
-        ghost.polarised.ratio.size() + colors.first.half.size() + colors.last.half.size();
+    planned.rays += ghost.polarised.ratio.size();
+    auto& colors = planned.look.color_share;
+    if (ghost.nearby) colors = ghost.nearby->look.color_share;
+    if (!colors || !colors->is_for(scene_)) {
+        colors = std::make_shared<const ColorShare>(
+            color_share(scene_, planned.path, beam_, ghost.polarised));
+        planned.rays += colors->rays;
+    }
+    ghost.weights = ghost_weights(scene_, trace, ghost.grid, ghost.polarised, *colors);
 
     MirrorGrid closer;
     if (ghost.passing < few_passing) {
-        closer = traced(ghost, scene_.main, close_cells);
+        closer = traced(ghost, scene_.system(), close_cells);
         planned.rays += closer.half.size() + closer.other.size();
     }
     const MirrorGrid& first = closer.cells > 0 ? closer : ghost.grid;
@@ -158,8 +158,7 @@ void GhostPlanner::weigh(ProbedGhost& ghost) const {
     else if (!light.near_frame)
         planned.fate = GhostFate::off_sensor;
     else
-        look(first, nodes, colors, ghost);
-    ghost.colors = std::move(colors.ratio);
+        look(first, nodes, ghost);
     // Its weights are known: what they came from is most of a ghost's memory.
     ghost.grid.half.cosines = {};
     ghost.grid.half.lengths_mm = {};
@@ -172,23 +171,30 @@ ProbedGhost GhostPlanner::probe(const GhostPath& path) const {
     return ghost;
 }
 
-/// How far apart the outer geometry wavelengths land, from few rays where they suffice.
-double GhostPlanner::shift_of_colors_px(const ProbedGhost& ghost, const ColorShare& colors) const {
-    double shift = 0.0;
-    if (colors.first.cells > 0)
-        shift = shift_px(placement_.place(colors.first), placement_.place(colors.last));
-    if (shift > 0.0) return shift;
-    for (const int cells : {shift_cells, probe_cells}) {
-        shift = shift_px(placement_.place(traced(ghost, 0, cells)),
-                         placement_.place(traced(ghost, scene_.geometry.size() - 1, cells)));
-        if (shift > 0.0) break;  // else no node of both passes
-    }
-    return shift;
+/// What one band would get wrong, from grids like the first one at the outer geometry wavelengths.
+ColorMisplacement GhostPlanner::misplaced_colors(const ProbedGhost& ghost,
+                                                 const MeshNodes& main) const {
+    const MeshNodes first = placement_.place(traced(ghost, scene_.geometry.front(), main.cells));
+    const MeshNodes last = placement_.place(traced(ghost, scene_.geometry.back(), main.cells));
+    const PixelFrame& frame = placement_.frame();
+    ColorMisplacement misplaced;
+    misplaced.distance =
+        0.5 * (picture_distance(main, first, frame) + picture_distance(main, last, frame));
+    misplaced.shift_px = shift_px(first, last);
+    std::size_t passing = 0, failing = 0;
+    for (const MeshNodes* outer : {&first, &last})
+        for (std::size_t k = 0; k < main.margin.size(); ++k) {
+            const bool here = is_within(main, k, 0.0), there = is_within(*outer, k, 0.0);
+            if (here || there) ++passing;
+            if ((here && outer->margin[k] < 0.0F) || (there && main.margin[k] < 0.0F)) ++failing;
+        }
+    if (passing > 0)
+        misplaced.failing_share = static_cast<double>(failing) / static_cast<double>(passing);
+    return misplaced;
 }
 
 /// What a plain drawing of the first grid would get wrong.
-void GhostPlanner::look(const MirrorGrid& first, const MeshNodes& nodes, const ColorShare& colors,
-                        ProbedGhost& ghost) const {
+void GhostPlanner::look(const MirrorGrid& first, const MeshNodes& nodes, ProbedGhost& ghost) const {
     const PixelFrame& frame = placement_.frame();
     ColorMesh<gray_channels> mesh;
     add_grid(nodes, frame, mesh);
@@ -204,10 +210,10 @@ void GhostPlanner::look(const MirrorGrid& first, const MeshNodes& nodes, const C
     errors.grid_mm2 =
         contrast * (grid_factor * bend_px(nodes, frame) + rim_factor * rim_px(nodes, frame));
     if (scene_.geometry.size() > 1) {
-        double& shift_px = ghost.planned.look.shift_px;
-        shift_px = ghost.nearby ? ghost.nearby->look.shift_px : 0.0;
-        if (!(shift_px > 0.0)) shift_px = shift_of_colors_px(ghost, colors);
-        errors.merging_mm2 = merging_factor * contrast * shift_px;
+        std::optional<ColorMisplacement>& colors = ghost.planned.look.colors;
+        if (ghost.nearby) colors = ghost.nearby->look.colors;
+        if (!colors) colors = misplaced_colors(ghost, nodes);
+        errors.colors = *colors;
     }
     errors.weight_mm2 = ghost.planned.flux_mm2 *
                         roughness(ghost.grid, ray_light<gray_channels>(
