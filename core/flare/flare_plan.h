@@ -12,7 +12,7 @@
 
 namespace ghostlight {
 
-struct ColorShare;
+struct WeightShares;
 
 /// What becomes of a ghost in a picture.
 enum class GhostFate {
@@ -40,8 +40,8 @@ struct FirstLook {
     PupilBox box;               ///< of the nodes that pass, with a cell to spare
     double cells_wanted = 0.0;  ///< across the box, by the first look's errors; 0: not known
     std::optional<ColorMisplacement> colors;  ///< of a spectrum; empty: not known
-    /// What its weights have of other wavelengths' angles; null: not known.
-    std::shared_ptr<const ColorShare> color_share;
+    /// What its weights have beyond the films' tables; null: not known.
+    std::shared_ptr<const WeightShares> shares;
     bool in_double = false;  ///< single precision moves its rays by what shows
 };
 

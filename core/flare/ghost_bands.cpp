@@ -128,7 +128,7 @@ GhostGrids GhostPlanner::lay_grids(ProbedGhost& ghost) const {
     const MirrorGrid& main = is_probe ? ghost.grid : grids.main;
     if (rough && !is_probe)
         grids.weights = ghost_weights(scene_, trace_path<float>(scene_.system(), planned.path),
-                                      main, ghost.polarised, *planned.look.color_share);
+                                      main, *planned.look.shares);
     if (own_colors) {
         planned.rays += idx(bands) * main.half.size();
         return grids;

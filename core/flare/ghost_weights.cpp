@@ -10,7 +10,6 @@
 namespace ghostlight {
 namespace {
 
-constexpr int few_cells = 4;  ///< where more error is allowed than least_error
 constexpr int polarised_cells = 6;
 constexpr int closer_cells = 12;      ///< where few of those rays are valid
 constexpr std::size_t few_valid = 4;  ///< one of so many
@@ -48,12 +47,10 @@ std::size_t sample_next_to(const FlareScene& scene, double wavelength_nm) {
 }  // namespace
 
 PolarisedShare polarised_share(const FlareScene& scene, const TracePath<float>& path,
-                               const BeamFrame& beam, const PupilBox& box, double allowed_error) {
+                               const BeamFrame& beam, const PupilBox& box) {
     PolarisedShare result;
     if (scene.coating_model != CoatingModel::exact) return result;
-    const double allowed = std::max(least_error, allowed_error);
-    for (const int cells : {few_cells, polarised_cells, closer_cells}) {
-        if (cells == few_cells && !(allowed > least_error)) continue;
+    for (const int cells : {polarised_cells, closer_cells}) {
         result.grid.box = box;
         result.grid.cells = cells;
         result.grid.half.keep_cosines = !scene.is_gray();
@@ -72,7 +69,7 @@ PolarisedShare polarised_share(const FlareScene& scene, const TracePath<float>& 
         for (std::size_t k = 0; k < rays.size(); ++k)
             if (rays.margin[k] < 0.0F || !(rays.weight_average[k] > 0.0F)) result.ratio[k] = mean;
         result.error = roughness(result.grid, result.ratio);
-        if (few_valid * valid >= rays.size() && result.error < allowed) break;
+        if (few_valid * valid >= rays.size() && result.error < least_error) break;
     }
     return result;
 }
@@ -147,8 +144,8 @@ ColorShare color_share(const FlareScene& scene, const GhostPath& path, const Bea
 }
 
 std::vector<float> ghost_weights(const FlareScene& scene, const TracePath<float>& path,
-                                 const MirrorGrid& grid, const PolarisedShare& polarised,
-                                 const ColorShare& colors) {
+                                 const MirrorGrid& grid, const WeightShares& shares) {
+    const auto& [polarised, colors] = shares;
     std::vector<float> weights;
     scene.films.weights(path, grid.half, weights);
     if (grid.other.size() > 0) {

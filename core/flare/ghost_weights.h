@@ -17,8 +17,7 @@ struct PolarisedShare {
     double error = 0.0;        ///< estimated, of interpolating it: a share of the light
 };
 PolarisedShare polarised_share(const FlareScene& scene, const TracePath<float>& path,
-                               const BeamFrame& beam, const PupilBox& box,
-                               double allowed_error = 0.0);
+                               const BeamFrame& beam, const PupilBox& box);
 
 /// What other wavelengths do to a path's weights beyond their own films: their rays meet the
 /// surfaces at other angles, known from rays of the outer geometry wavelengths and interpolated
@@ -35,12 +34,18 @@ struct ColorShare {
 ColorShare color_share(const FlareScene& scene, const GhostPath& path, const BeamFrame& beam,
                        const PolarisedShare& polarised);
 
+/// What a path's weights have beyond the films' tables, smooth over its box and with the light's
+/// direction.
+struct WeightShares {
+    PolarisedShare polarised;
+    ColorShare colors;
+};
+
 /// Weights of a half grid that kept its cosines, at the scene's samples, FilmTables::stride() a
 /// ray, polarisation included (by the grid's own rays, if they are traced so); failed rays take
 /// their neighbours'.
 std::vector<float> ghost_weights(const FlareScene& scene, const TracePath<float>& path,
-                                 const MirrorGrid& grid, const PolarisedShare& polarised,
-                                 const ColorShare& colors);
+                                 const MirrorGrid& grid, const WeightShares& shares);
 
 /// Light per E0 in each channel, ray by ray of a half grid, made ready for interpolation. `shares`
 /// as channel_shares() gives them.

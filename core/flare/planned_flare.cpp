@@ -94,7 +94,6 @@ std::optional<double> draw_by_bands(const GhostPlanner& planner, ProbedGhost& gh
 void release(ProbedGhost& ghost) {
     ghost.grid = {};
     ghost.weights = {};
-    ghost.polarised = {};
 }
 
 template <int C>

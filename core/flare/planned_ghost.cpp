@@ -97,8 +97,8 @@ Fineness GhostPlanner::choose(const ProbedGhost& ghost) const {
         chosen.cells = std::max(
             chosen.cells,
             std::min(most_rough_cells, cells_for(probe, first.weight_mm2, weight_allowed)));
-    chosen.polarised =
-        chosen.rough && ghost.polarised.error * flux > polarised_share_of_weight * weight_allowed;
+    chosen.polarised = chosen.rough && planned.look.shares->polarised.error * flux >
+                                           polarised_share_of_weight * weight_allowed;
     auto fallen = [](double error, int from, int to) {
         return error * static_cast<double>(from * from) / (to * to);
     };
@@ -174,7 +174,7 @@ GhostDrawing GhostPlanner::prepare(ProbedGhost& ghost) const {
     }
     if (own_weights)
         fine_weights = ghost_weights(scene_, trace_path<float>(scene_.system(), planned.path), fine,
-                                     ghost.polarised, *planned.look.color_share);
+                                     *planned.look.shares);
     const MirrorGrid& weight_grid = own_weights ? fine : probe;
     const std::vector<float>& weights = own_weights ? fine_weights : ghost.weights;
     auto light = [&](int band, int bands) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -31,11 +32,10 @@ struct FirstErrors {
 struct ProbedGhost {
     PlannedGhost planned;
     FirstErrors errors;
-    MirrorGrid grid;           ///< the probe, at the main geometry wavelength, with its cosines
-    std::size_t passing = 0;   ///< of its nodes
-    PolarisedShare polarised;  ///< over the box
-    /// What a plan nearby knew, where its box still holds.
-    std::optional<PlannedGhost> nearby;
+    MirrorGrid grid;          ///< the probe, at the main geometry wavelength, with its cosines
+    std::size_t passing = 0;  ///< of its nodes
+    /// What a plan nearby knew of its colours, polarisation and rounding; null: nothing that holds.
+    const FirstLook* known = nullptr;
     std::vector<float> weights;  ///< of the probe's half grid, FilmTables::stride() a ray
     /// Single precision moves its rays by more than is_ill_conditioned() allows (path_stability.h):
     /// it is traced in double.
@@ -128,6 +128,8 @@ class GhostPlanner {
     void trace(const ProbedGhost& ghost, const OpticalSystem& system, Weights weights,
                Bundle<float>& rays) const;
     void mind_rounding(ProbedGhost& ghost) const;
+    std::shared_ptr<const WeightShares> shares_of(ProbedGhost& ghost,
+                                                  const TracePath<float>& path) const;
     void trace_other_half(const ProbedGhost& ghost, const OpticalSystem& system, Weights weights,
                           MirrorGrid& grid) const;
     MirrorGrid traced(const ProbedGhost& ghost, const OpticalSystem& system, int cells,

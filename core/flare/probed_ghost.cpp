@@ -1,6 +1,7 @@
 // GhostPlanner's first look at a ghost: where it enters, its light, and what a first drawing of it
 // would get wrong. What follows from that is in planned_ghost.cpp.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/flare/ghost_measures.h"
@@ -18,10 +19,17 @@ constexpr std::size_t few_passing = 12;   ///< of a probe's nodes
 constexpr std::size_t compared_rays = 8;  ///< of a probe, with double precision
 /// Cells that a plan nearby wants, for fewer of them to be enough.
 constexpr double few_enough = 6.5;
-/// Of a ghost's allowance, for interpolating polarisation.
-constexpr double polarised_allowed = 0.02;
 /// Of the light in singular cells: a root drawn as a line is off by as much, over a cell.
 constexpr double singular_factor = 0.3;
+
+/// Of a box's breadth, that its edges may move by, for what is smooth over it to hold.
+constexpr double most_moved = 0.15;
+
+bool are_alike(const PupilBox& a, const PupilBox& b) {
+    const double du = most_moved * (b.u1_mm - b.u0_mm), dv = most_moved * (b.v1_mm - b.v0_mm);
+    return std::abs(a.u0_mm - b.u0_mm) <= du && std::abs(a.u1_mm - b.u1_mm) <= du &&
+           std::abs(a.v0_mm - b.v0_mm) <= dv && std::abs(a.v1_mm - b.v1_mm) <= dv;
+}
 
 }  // namespace
 
@@ -66,8 +74,8 @@ void GhostPlanner::trace_other_half(const ProbedGhost& ghost, const OpticalSyste
 /// probe is traced anew, and all that follows in double.
 void GhostPlanner::mind_rounding(ProbedGhost& ghost) const {
     const OpticalSystem& system = scene_.system();
-    if (ghost.nearby) {
-        ghost.in_double = ghost.nearby->look.in_double;
+    if (ghost.known != nullptr) {
+        ghost.in_double = ghost.known->in_double;
     } else {
         PathStability seen;
         seen.position_worst_mm = float_displacement_mm(system, ghost.planned.path, beam_,
@@ -101,7 +109,6 @@ ProbedGhost GhostPlanner::find(const GhostPath& path, const PlannedGhost* nearby
                     search, nearby != nullptr ? &nearby->look.box : nullptr);
     planned.rays = probe.rays;
     planned.look.box = probe.passing_box;
-    if (probe.served) result.nearby = *nearby;
     if (probe.empty) {
         planned.fate = GhostFate::nothing_passes;
         return result;
@@ -113,30 +120,33 @@ ProbedGhost GhostPlanner::find(const GhostPath& path, const PlannedGhost* nearby
     return result;
 }
 
+std::shared_ptr<const WeightShares> GhostPlanner::shares_of(ProbedGhost& ghost,
+                                                            const TracePath<float>& path) const {
+    auto shares = std::make_shared<WeightShares>();
+    PolarisedShare& polarised = shares->polarised;
+    polarised = polarised_share(scene_, path, beam_, ghost.planned.box);
+    shares->colors = color_share(scene_, ghost.planned.path, beam_, polarised);
+    ghost.planned.rays += polarised.ratio.size() + shares->colors.rays;
+    // What they came from is most of their memory.
+    polarised.grid.half = {};
+    return shares;
+}
+
 void GhostPlanner::weigh(ProbedGhost& ghost) const {
     PlannedGhost& planned = ghost.planned;
     if (planned.fate != GhostFate::drawn) return;
+    if (ghost.known != nullptr && !are_alike(ghost.known->box, planned.look.box))
+        ghost.known = nullptr;
     const auto trace = trace_path<float>(scene_.system(), planned.path);
     mind_rounding(ghost);
     if (!economies_.half_beams) {
         trace_other_half(ghost, scene_.system(), Weights::none, ghost.grid);
         planned.rays += ghost.grid.other.size();
     }
-    // What polarisation may be off by without being seen, where that is known.
-    const double allowed =
-        ghost.nearby && ghost.nearby->flux_mm2 > 0.0
-            ? polarised_allowed * ghost.nearby->allowance_mm2 / ghost.nearby->flux_mm2
-            : 0.0;
-    ghost.polarised = polarised_share(scene_, trace, beam_, planned.box, allowed);
-    planned.rays += ghost.polarised.ratio.size();
-    auto& colors = planned.look.color_share;
-    if (ghost.nearby) colors = ghost.nearby->look.color_share;
-    if (!colors || !colors->is_for(scene_)) {
-        colors = std::make_shared<const ColorShare>(
-            color_share(scene_, planned.path, beam_, ghost.polarised));
-        planned.rays += colors->rays;
-    }
-    ghost.weights = ghost_weights(scene_, trace, ghost.grid, ghost.polarised, *colors);
+    std::shared_ptr<const WeightShares>& shares = planned.look.shares;
+    if (ghost.known != nullptr) shares = ghost.known->shares;
+    if (!shares || !shares->colors.is_for(scene_)) shares = shares_of(ghost, trace);
+    ghost.weights = ghost_weights(scene_, trace, ghost.grid, *shares);
 
     MirrorGrid closer;
     if (ghost.passing < few_passing) {
@@ -162,7 +172,6 @@ void GhostPlanner::weigh(ProbedGhost& ghost) const {
     // Its weights are known: what they came from is most of a ghost's memory.
     ghost.grid.half.cosines = {};
     ghost.grid.half.lengths_mm = {};
-    ghost.polarised.grid.half = {};
 }
 
 ProbedGhost GhostPlanner::probe(const GhostPath& path) const {
@@ -211,7 +220,7 @@ void GhostPlanner::look(const MirrorGrid& first, const MeshNodes& nodes, ProbedG
         contrast * (grid_factor * bend_px(nodes, frame) + rim_factor * rim_px(nodes, frame));
     if (scene_.geometry.size() > 1) {
         std::optional<ColorMisplacement>& colors = ghost.planned.look.colors;
-        if (ghost.nearby) colors = ghost.nearby->look.colors;
+        if (ghost.known != nullptr) colors = ghost.known->colors;
         if (!colors) colors = misplaced_colors(ghost, nodes);
         errors.colors = *colors;
     }

@@ -59,7 +59,7 @@ TEST(GhostWeights, AreThoseOfPolarisedRays) {
         for (const auto& onset : grid.half.onset) is_plain = is_plain && all_above(onset, 0.3F);
         if (!is_plain) continue;
         const std::vector<float> weights =
-            ghost_weights(scene, trace, grid, polarised_share(scene, trace, beam, grid.box), {});
+            ghost_weights(scene, trace, grid, {polarised_share(scene, trace, beam, grid.box), {}});
         const float most = *std::ranges::max_element(exact);
         for (std::size_t k = 0; k < exact.size(); ++k)
             EXPECT_NEAR(static_cast<double>(weights[k * scene.films.stride()] / most),
