@@ -63,14 +63,21 @@ struct PlannedGhost {
     FirstLook look;
 };
 
+/// Rims that keep their sharp edge since their fringes change too little.
+struct FringesLeftOut {
+    std::size_t ghosts = 0;
+    double changed_mm2 = 0.0;  ///< L1 on the sensor over E0 that they would change, at most
+};
+
 /// What is drawn for a tolerance, how finely, and what is left out.
 struct FlarePlan {
     double tolerance = 0.0;  ///< asked: relative L1 error of the ghost layer on the sensor
     std::vector<PlannedGhost> ghosts;
-    double flux_mm2 = 0.0;      ///< of the ghost layer on the sensor
-    double folded_mm2 = 0.0;    ///< on the sensor, of ghosts that the veil has instead
-    double error_mm2 = 0.0;     ///< estimated, of all that is drawn
-    double left_out_mm2 = 0.0;  ///< sum of the bounds of what is left out
+    double flux_mm2 = 0.0;            ///< of the ghost layer on the sensor
+    double folded_mm2 = 0.0;          ///< on the sensor, of ghosts that the veil has instead
+    double error_mm2 = 0.0;           ///< estimated, of all that is drawn
+    double left_out_mm2 = 0.0;        ///< sum of the bounds of what is left out
+    FringesLeftOut fringes_left_out;  ///< where ringing was asked for
     /// Light of four reflections, which no plan draws: an estimate (plane surfaces at normal
     /// incidence) over that of two.
     double not_modelled = 0.0;

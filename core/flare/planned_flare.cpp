@@ -155,18 +155,20 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
             if (!request.ringing) release(ghosts_at[k]);
         }
     }
+    FringesLeftOut fringes;
     if (request.ringing) {
         const auto rang = Clock::now();
         const auto rung = ringing_of(scene, request, planner, probed, stop);
         if (!rung || !draw_ringing(*rung, frame, request.threads, stop, canvas.picture))
             return std::nullopt;
-        for (const RungMesh& mesh : *rung) image.ringing.push_back(mesh.report);
+        fringes = take_reports(*rung, image);
         image.times.ringing_ms = ms_since(rang);
     }
     if (!canvas.picture.finish(request.threads, stop, image) ||
         (canvas.highlight && !finish_highlight(*canvas.highlight, request.threads, stop, image)))
         return std::nullopt;
     image.plan = plan_of(scene, request, probed);
+    image.plan.fringes_left_out = fringes;
     image.times.total_ms = ms_since(began);
     return image;
 }
