@@ -2,12 +2,17 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
+#include <optional>
 #include <vector>
 
+#include "core/flare/color_misplacement.h"
 #include "core/ghosts/ghost_path.h"
 #include "core/ghosts/pupil.h"
 
 namespace ghostlight {
+
+struct WeightShares;
 
 /// What becomes of a ghost in a picture.
 enum class GhostFate {
@@ -34,8 +39,10 @@ struct GhostSpot {
 struct FirstLook {
     PupilBox box;               ///< of the nodes that pass, with a cell to spare
     double cells_wanted = 0.0;  ///< across the box, by the first look's errors; 0: not known
-    double shift_px = 0.0;      ///< between the outer geometry wavelengths
-    bool in_double = false;     ///< single precision moves its rays by what shows
+    std::optional<ColorMisplacement> colors;  ///< of a spectrum; empty: not known
+    /// What its weights have beyond the films' tables; null: not known.
+    std::shared_ptr<const WeightShares> shares;
+    bool in_double = false;  ///< single precision moves its rays by what shows
 };
 
 /// How one ghost of a picture is drawn, and what that costs. Fluxes are over E0, mm².
