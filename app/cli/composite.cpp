@@ -30,6 +30,9 @@ struct CompositeOptions {
     OutputOptions output;
 };
 
+/// Where no spot of any frame takes less of it, nothing stands out as a light.
+constexpr double largest_light = 0.1;
+
 /// What a light does in one frame: its place, and its irradiance in the frame's own unit.
 struct FrameLight {
     std::size_t light = 0;  ///< from 0
@@ -123,22 +126,33 @@ FrameLights detect(const CompositeOptions& options, const FramePattern& pattern,
             threshold = std::max(threshold, of_brightest * brightest(read(number)));
     }
     std::vector<std::vector<LightBlob>> blobs;
+    bool any_is_small = !options.threshold.empty(), any_is_large = false;
     for (std::size_t k = 0; k < numbers.size(); ++k) {
         const LinearPicture picture = read(numbers[k]);
         blobs.push_back(find_blobs(picture.rgb, picture.width, picture.height, threshold));
+        for (const LightBlob& blob : blobs.back())
+            (static_cast<double>(blob.pixels) > largest_light * picture.width * picture.height
+                 ? any_is_large
+                 : any_is_small) = true;
         progress(static_cast<double>(k + 1) / static_cast<double>(numbers.size()));
     }
     TrackRequest request;
     request.most = static_cast<std::size_t>(
         integer_value("--lights", options.most, "a whole number from 1 to 32", 1, 32));
     request.farthest_px = 0.1 * first.width;
-    const auto tracks = track_lights(blobs, request);
+    // A sky or a wall is none, unless somebody says above what there is light.
+    const auto tracks = any_is_small ? track_lights(blobs, request) : std::vector<LightTrack>{};
     if (tracks.empty())
         throw Error(
             {.problem = "no light was found",
              .file = options.in,
              .where = {},
-             .found = fmt::format("nothing above {:.4g} in {} frames", threshold, numbers.size()),
+             .found =
+                 any_is_large
+                     ? fmt::format("nothing but spots of more than {:.0f} % of a frame above "
+                                   "{:.4g}, a fifth of the brightest pixel",
+                                   100.0 * largest_light, threshold)
+                     : fmt::format("nothing above {:.4g} in {} frames", threshold, numbers.size()),
              .expected = "a pixel brighter than --threshold, or --light FILE.csv"});
     FrameLights lights;
     for (std::size_t k = 0; k < numbers.size(); ++k)

@@ -40,6 +40,7 @@ std::vector<LightBlob> find_blobs(const std::vector<float>& rgb, int width, int 
         while (!open.empty()) {
             const std::size_t at = open.back();
             open.pop_back();
+            ++blob.pixels;
             const int column = static_cast<int>(at % idx(width));
             const int row = static_cast<int>(at / idx(width));
             const double share = 1.0 - threshold / static_cast<double>(luminance[at]);

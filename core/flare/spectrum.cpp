@@ -224,6 +224,8 @@ TabulatedLight tabulated_light(std::string name, SpectralTable power) {
             refuse_entry(k, "not a spectral power", fmt::format("{}", value), "0 or more");
     }
     TabulatedLight light{std::move(name), std::move(power)};
+    const bool is_dark =
+        std::ranges::all_of(light.power, [](const auto& entry) { return entry.power == 0.0; });
     const Spectrum spectrum = light;
     if (!(mean_power(spectrum, 0.5 * (band_first_nm + band_last_nm), band_last_nm - band_first_nm) >
           0.0))
@@ -231,8 +233,10 @@ TabulatedLight tabulated_light(std::string name, SpectralTable power) {
             {.problem = "a spectrum without power where pictures are made",
              .file = {},
              .where = {},
-             .found = fmt::format("power from {} to {} nm", light.power.front().wavelength_nm,
-                                  light.power.back().wavelength_nm),
+             .found = is_dark
+                          ? std::string("no power at any wavelength")
+                          : fmt::format("power from {} to {} nm", light.power.front().wavelength_nm,
+                                        light.power.back().wavelength_nm),
              .expected = fmt::format("some between {} and {} nm", band_first_nm, band_last_nm)});
     return light;
 }

@@ -91,7 +91,7 @@ std::vector<long> frames_of(const FramePattern& pattern) {
         for (long n = numbers[k - 1] + 1; n < numbers[k] && missing.size() < most_frames; ++n)
             missing.push_back(n);
     if (!missing.empty())
-        refuse_file(folder / shown, "frames are missing", list_of(missing),
+        refuse_file(folder / shown, "frames are missing", "all but " + list_of(missing),
                     fmt::format("every frame from {} to {}, or --frames FIRST:LAST",
                                 numbers.front(), numbers.back()));
     return numbers;

@@ -162,7 +162,7 @@ TEST_F(CommandLineComposite, SaysWhatIsWrongWithAFrameAndKeepsThoseWritten) {
     write_frame({8, 8, std::vector<float>(192, 1.0F)}, shot(2));
     expect_refused(command(), "another size");
     std::filesystem::remove(shot(2));
-    expect_refused(command(), "frames are missing; found 3");
+    expect_refused(command(), "frames are missing; found all but 3");
     EXPECT_EQ(cli(command({"--frames", "1:2"})).status, 0);
     expect_refused(command({"--frames", "1:3"}), "no such picture");
 }
@@ -170,6 +170,12 @@ TEST_F(CommandLineComposite, SaysWhatIsWrongWithAFrameAndKeepsThoseWritten) {
 TEST_F(CommandLineComposite, SaysThatNoLightWasFound) {
     make(2);
     expect_refused(command({"--threshold", "1e6"}), "no light was found");
+    // An even frame has nothing that stands out; what somebody calls a light is one.
+    for (const int k : {0, 1})
+        write_frame({64, 48, std::vector<float>(std::size_t{3} * 64 * 48, 0.25F)}, shot(k));
+    expect_refused(command(), "no light was found; found nothing but spots of more than 10 %");
+    EXPECT_EQ(cli(command({"--threshold", "0.05", "--dry-run"})).status, 0);
+    make(2);
     expect_refused(command({"--threshold", "-1"}), "--threshold");
     write_file(folder / "lights.csv", "frame,light,x_px,y_px,e0_r,e0_g\n1,1,2,3,4,5\n");
     expect_refused(command({"--light", (folder / "lights.csv").string()}), "e0_b");

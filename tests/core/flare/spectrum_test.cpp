@@ -235,6 +235,7 @@ TEST(Spectrum, RefusesTablesThatAreNone) {
     EXPECT_THAT(refusal({{500, 1}, {510, std::nan("")}}).problem, testing::HasSubstr("power"));
     EXPECT_THAT(refusal({{800, 1}, {1000, 1}}).found, testing::HasSubstr("800 to 1000"));
     EXPECT_THAT(refusal({{400, 0}, {700, 0}}).expected, testing::HasSubstr("400 and 700"));
+    EXPECT_THAT(refusal({{400, 0}, {700, 0}}).found, testing::HasSubstr("no power"));
 }
 
 TEST(Spectrum, OneLightBalancedForAnother) {
