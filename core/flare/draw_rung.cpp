@@ -76,9 +76,15 @@ std::vector<RimColor> means_of(const RimProfile& profile, int half_steps) {
 /// Of a mask that is propagated: its light, in the ghost's colours.
 RimColor masked_color(const RungMesh& mesh, float u, float v) {
     RimColor color{};
+    // Softly out, where triangles end.
+    constexpr float fading_share = 0.15F;
+    const auto reach = static_cast<float>(mesh.mask_reach);
+    const float left = (reach - std::sqrt(u * u + v * v)) / (fading_share * reach);
+    if (left <= 0.0F) return color;
+    const float kept = left >= 1.0F ? 1.0F : left * left * (3.0F - 2.0F * left);
     for (std::size_t p = 0; p < mesh.masks->size(); ++p) {
-        const auto light =
-            static_cast<float>((*mesh.masks)[p].at(static_cast<double>(u), static_cast<double>(v)));
+        const float light = kept * static_cast<float>((*mesh.masks)[p].at(static_cast<double>(u),
+                                                                          static_cast<double>(v)));
         for (std::size_t c = 0; c < rim_channels; ++c) color[c] += mesh.mask_shares[p][c] * light;
     }
     return color;

@@ -13,9 +13,20 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double series_below = 1.8;
-/// Below this Fresnel number light spreads so far that the grid is padded eightfold, not twofold.
-constexpr double wide_below = 4.0;
-constexpr int wide_across = 1024, narrow_across = 1024;
+constexpr int grid_across = 1024;
+
+/// How the grid is shared between the stop and what lies around it: the smaller the Fresnel number,
+/// the further light spreads, and the broader are its fringes.
+struct Padding {
+    int times;        ///< the grid over the stop
+    double reach;     ///< of what is kept, semi-diameters
+    double unspoilt;  ///< of that, where nothing that has run round the grid may land
+};
+Padding padding_for(double fresnel_number) {
+    if (fresnel_number < 4.0) return {8, 4.0, 4.0};
+    if (fresnel_number < 20.0) return {4, 2.0, 2.0};
+    return {2, 2.0, 1.0};
+}
 
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 
@@ -59,17 +70,17 @@ double straight_edge(double w) {
 }
 
 int propagation_raster(double fresnel_number) {
-    return fresnel_number < wide_below ? wide_across / 8 : narrow_across / 2;
+    return grid_across / padding_for(fresnel_number).times;
 }
 
 std::optional<MaskSpectrum> mask_spectrum(const MaskRaster& raster, double fresnel_number,
                                           unsigned threads, const std::stop_token& stop) {
-    const bool wide = fresnel_number < wide_below;
+    const Padding padding = padding_for(fresnel_number);
     MaskSpectrum mask;
-    mask.across = wide ? wide_across : narrow_across;
+    mask.across = grid_across;
     mask.width = mask.across * raster.pitch();
-    mask.reach = std::min(0.5 * mask.width, wide ? 4.0 : 2.0);
-    mask.furthest = mask.width - 1.0 - (wide ? 4.0 : 1.0);
+    mask.reach = std::min(0.5 * mask.width, padding.reach);
+    mask.furthest = mask.width - 1.0 - padding.unspoilt;
     mask.field.resize(idx(mask.across) * idx(mask.across));
     const int first = (mask.across - raster.across) / 2;
     for (int j = 0; j < raster.across; ++j)

@@ -9,11 +9,10 @@
 namespace ghostlight {
 namespace {
 
-/// Cells across a ghost's beam, its shadow's side included: of those, as many as draw a round rim
-/// by chords that are off by at most so much of w, and no fewer than the ghost itself has. Straight
-/// blades are no rounder than the map.
-constexpr int fewest_cells = 20, fewest_straight_cells = 12, most_cells = 40;
-constexpr double most_chord_w = 0.025;
+/// Ghosts with more cells than this get a grid of so many for their fringes.
+constexpr int most_cells = 40;
+/// Of a ghost that no plan has drawn.
+constexpr int usual_cells = 20;
 /// Below this Fresnel number the rim's curvature shows in the fringes: the mask is propagated.
 constexpr double whole_mask_below = 20.0;
 /// A rim drawn small and brought up bilinearly is a ramp this many of its pixels long.
@@ -26,30 +25,16 @@ constexpr double least_px_per_w = 2.5, least_px_per_w_gray = 5.0;
 
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 
-/// Of rims whose largest Fresnel number is this, where they are round; 0: none is.
-int cells_for(const PlannedGhost& planned, double round_number, double reach) {
-    int wanted = std::max(planned.cells, fewest_straight_cells);
-    if (round_number > 0.0) {
-        const double breadth = std::sqrt(8.0 * most_chord_w / std::sqrt(2.0 * round_number));
-        wanted =
-            std::max({wanted, fewest_cells, static_cast<int>(std::ceil(2.0 * reach / breadth))});
-    }
-    return std::min((wanted + 1) / 2 * 2, most_cells);
-}
-
-/// The largest Fresnel number of the round rims that show.
-double round_number_of(const GhostRims& rims, const StopMask& stop) {
-    double most = shows(rims.surface) ? rims.surface.fresnel_number : 0.0;
-    if (stop.blades >= 3 && stop.blade_curvature <= 0.0 && stop.picture == nullptr) return most;
-    for (const GhostFringes& rim : rims.crossings)
-        if (shows(rim)) most = std::max(most, rim.fresnel_number);
-    return most;
-}
-
-PupilBox widened(const PupilBox& box, double share, int cells) {
-    const double du = (0.5 * share + 1.0 / cells) * (box.u1_mm - box.u0_mm);
-    const double dv = (0.5 * share + 1.0 / cells) * (box.v1_mm - box.v0_mm);
-    return {box.u0_mm - du, box.u1_mm + du, box.v0_mm - dv, box.v1_mm + dv};
+/// A grid for the fringes of a ghost whose beam, shadow's side included, reaches so many
+/// semi-diameters: the ghost's own, and as many cells of its size around it. Its rims are then the
+/// same chords as the picture's, which they replace.
+MirrorGrid grid_of(const PlannedGhost& ghost, double reach) {
+    const int own = ghost.cells > 0 ? std::min(ghost.cells, most_cells) : usual_cells;
+    const int around = static_cast<int>(std::ceil(0.5 * (reach - 1.0) * own)) + 1;
+    const PupilBox& box = ghost.box;
+    const double du = (box.u1_mm - box.u0_mm) / own * around;
+    const double dv = (box.v1_mm - box.v0_mm) / own * around;
+    return {{box.u0_mm - du, box.u1_mm + du, box.v0_mm - dv, box.v1_mm + dv}, own + 2 * around, {}};
 }
 
 /// Half grid values at the nodes of a full grid over a wider box: bilinear, and beyond the box as
@@ -317,9 +302,8 @@ RungMesh rung_mesh(const FlareScene& scene, const GhostPlanner& planner, const E
     const double reach = propagates
                              ? 1.0 + std::min(1.0, 4.0 / std::sqrt(2.0 * last.fresnel_number))
                              : 1.0 + std::min(1.0, into_shadow / std::sqrt(2.0 * least_number));
-    const int cells =
-        propagates ? most_cells : cells_for(ghost.planned, round_number_of(rims, stop_mask), reach);
-    MirrorGrid grid{widened(ghost.planned.box, reach - 1.0, cells), cells, {}};
+    mesh.mask_reach = reach;
+    MirrorGrid grid = grid_of(ghost.planned, reach);
     lay_mirrored(grid);
     planner.trace_main(ghost, grid.half);
     const MeshNodes nodes = planner.placement().place(grid);

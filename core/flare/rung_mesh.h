@@ -48,9 +48,10 @@ struct RungMesh {
     std::vector<RungTriangle> triangles;
     PropagatedMasks::Fields masks;  ///< where the whole mask is propagated, by colour group
     std::vector<std::array<float, rim_channels>> mask_shares;
-    double px_per_w = 0.0;  ///< the least of the rims'
-    int level = 0;          ///< fringes are drawn at
-    double rim_px = 1.0;    ///< how softly the picture has its rim, full-size pixels
+    double mask_reach = 0.0;  ///< their light ends there, softly; semi-diameters
+    double px_per_w = 0.0;    ///< the least of the rims'
+    int level = 0;            ///< fringes are drawn at
+    double rim_px = 1.0;      ///< how softly the picture has its rim, full-size pixels
 
     /// Left out: the L1 that its fringes would change, mm² over E0.
     double left_out_mm2 = 0.0;

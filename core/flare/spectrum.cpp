@@ -225,7 +225,7 @@ TabulatedLight tabulated_light(std::string name, SpectralTable power) {
     }
     TabulatedLight light{std::move(name), std::move(power)};
     const bool is_dark =
-        std::ranges::all_of(light.power, [](const auto& entry) { return entry.power == 0.0; });
+        std::ranges::all_of(light.power, [](const auto& entry) { return entry.value == 0.0; });
     const Spectrum spectrum = light;
     if (!(mean_power(spectrum, 0.5 * (band_first_nm + band_last_nm), band_last_nm - band_first_nm) >
           0.0))

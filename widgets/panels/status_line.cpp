@@ -149,9 +149,7 @@ void StatusLine::show_without_plan(std::size_t ghosts) {
         document_.lens().stop.image
             ? tr("the stop has an image")
             : tr("the sensor reflects, and the light is not above or below the axis");
-    picture_->set_text(
-        tr("*%n ghost(s)* by the uniform method: %1", nullptr, static_cast<int>(ghosts))
-            .arg(reason));
+    picture_->set_text(tr("*uniform* method, error not estimated: %1").arg(reason));
     picture_->setToolTip(
         tr("Every ghost on an even grid, as fine as its map asks for. Only the planned method "
            "estimates the picture's error."));
