@@ -20,7 +20,7 @@ constexpr std::size_t compared_rays = 8;  ///< of a probe, with double precision
 /// Cells that a plan nearby wants, for fewer of them to be enough.
 constexpr double few_enough = 6.5;
 /// Of the light in singular cells: a root drawn as a line is off by as much, over a cell.
-constexpr double singular_factor = 0.3;
+constexpr double singular_factor = 0.1;
 
 /// Of a box's breadth, that its edges may move by, for what is smooth over it to hold.
 constexpr double most_moved = 0.15;
