@@ -173,10 +173,7 @@ void GhostPlanner::draw_band(const ProbedGhost& ghost, const GhostGrids& grids, 
         nodes = at_wavelength(grids.placed,
                               ColorAxis(scene_.samples).wavelength_nm((band + 0.5) / bands));
         skip(grids.singular, nodes);
-        // Once, with all colours.
-        if (band == 0)
-            draw_singular(ghost, cells, grids.singular, scene_.system(),
-                          channel_shares<C>(scene_, 0, 1), mesh);
+        draw_singular(ghost, cells, grids.singular, scene_.system(), shares, mesh);
     }
     interpolate(weight_grid, light, C, nodes.cells, nodes.weights);
     add_grid(nodes, placement_.frame(), mesh);
