@@ -13,6 +13,8 @@ namespace {
 constexpr int most_cells = 40;
 /// Of a ghost that no plan has drawn.
 constexpr int usual_cells = 20;
+/// Chords of a round rim are off by at most so much of w.
+constexpr double most_chord_w = 0.025;
 /// Below this Fresnel number the rim's curvature shows in the fringes: the mask is propagated.
 constexpr double whole_mask_below = 20.0;
 /// A rim drawn small and brought up bilinearly is a ramp this many of its pixels long.
@@ -25,11 +27,25 @@ constexpr double least_px_per_w = 2.5, least_px_per_w_gray = 5.0;
 
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 
+/// The largest Fresnel number of the round rims that get a profile; 0: none is round.
+double round_number_of(const GhostRims& rims, const StopMask& stop) {
+    double most = shows(rims.surface) ? rims.surface.fresnel_number : 0.0;
+    if (stop.blades >= 3 && stop.blade_curvature <= 0.0 && stop.picture == nullptr) return most;
+    for (const GhostFringes& rim : rims.crossings)
+        if (shows(rim)) most = std::max(most, rim.fresnel_number);
+    return most;
+}
+
 /// A grid for the fringes of a ghost whose beam, shadow's side included, reaches so many
 /// semi-diameters: the ghost's own, and as many cells of its size around it. Its rims are then the
-/// same chords as the picture's, which they replace.
-MirrorGrid grid_of(const PlannedGhost& ghost, double reach) {
-    const int own = ghost.cells > 0 ? std::min(ghost.cells, most_cells) : usual_cells;
+/// same chords as the picture's, which they replace; where a round one's profile needs shorter
+/// ones, its cells are shared out.
+MirrorGrid grid_of(const PlannedGhost& ghost, double reach, double round_number) {
+    int own = ghost.cells > 0 ? std::min(ghost.cells, most_cells) : usual_cells;
+    const double chord =
+        std::sqrt(8.0 * most_chord_w / std::sqrt(2.0 * std::max(round_number, 1e-9)));
+    const int wanted = std::min(most_cells, static_cast<int>(std::ceil(2.0 / chord)));
+    if (round_number > 0.0) own *= (wanted + own - 1) / own;
     const int around = static_cast<int>(std::ceil(0.5 * (reach - 1.0) * own)) + 1;
     const PupilBox& box = ghost.box;
     const double du = (box.u1_mm - box.u0_mm) / own * around;
@@ -303,7 +319,8 @@ RungMesh rung_mesh(const FlareScene& scene, const GhostPlanner& planner, const E
                              ? 1.0 + std::min(1.0, 4.0 / std::sqrt(2.0 * last.fresnel_number))
                              : 1.0 + std::min(1.0, into_shadow / std::sqrt(2.0 * least_number));
     mesh.mask_reach = reach;
-    MirrorGrid grid = grid_of(ghost.planned, reach);
+    MirrorGrid grid =
+        grid_of(ghost.planned, reach, propagates ? 0.0 : round_number_of(rims, stop_mask));
     lay_mirrored(grid);
     planner.trace_main(ghost, grid.half);
     const MeshNodes nodes = planner.placement().place(grid);
