@@ -25,7 +25,7 @@ constexpr double most_worse = 2.0;
 constexpr int most_halvings = 4;
 /// First guesses for all λ0 together, nm.
 constexpr std::array<double, 5> alike_nm = {550.0, 490.0, 620.0, 440.0, 690.0};
-constexpr int start_iterations = 10, final_iterations = 30, jump_iterations = 8;
+constexpr int start_iterations = 10, final_iterations = 100, jump_iterations = 40;
 /// Minima whose χ² is higher by more than this are excluded: their odds are 1 : 400.
 constexpr double most_chi2_above = 12.0;
 constexpr std::size_t most_minima = 5;
@@ -96,14 +96,16 @@ double FitRun::explained() {
 double FitRun::solve(int iterations) {
     check_stop();
     const auto began = Clock::now();
-    const Descent descent =
-        descend(*evaluator_, request_.loss, request_.loss_scale, iterations, [&](double cost) {
+    const Descent descent = descend(
+        *evaluator_, request_.loss, request_.loss_scale, iterations,
+        [&](double cost) {
             cost_ = cost;
             report_.cost_curve.push_back(cost);
             tell(share_);
             if (request_.look) show_look();
             return !stop_.stop_requested();
-        });
+        },
+        DescentAim::minimum);
     report_.iterations += descent.iterations;
     report_.iteration_ms = ms_since(began) / descent.iterations;
     check_stop();
