@@ -83,7 +83,7 @@ void FitRun::profile(FitReport& report) {
             continue;
         FittedProfile& profile = report.profiles.emplace_back();
         profile.number = p;
-        const double error = report.numbers[p].standard_error / parameter.prior;
+        const double error = report.numbers[p].own_error / parameter.prior;
         const double low = (parameter.lower - parameter.start) / parameter.prior,
                      high = (parameter.upper - parameter.start) / parameter.prior;
         for (const double side : {-1.0, 1.0}) {
