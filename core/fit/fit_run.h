@@ -41,6 +41,8 @@ class FitRun {
     void tell_stage(const char* words) const;
     /// Shows the iteration that is done, where somebody looks.
     void show_look() const;
+    /// The same where a search stands, whose descents are on thinned photographs.
+    void show_search();
     void prepare();
     /// The lens with the geometry as it stands; coatings are the weights' business.
     FittedLens current_geometry() const;

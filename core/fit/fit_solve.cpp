@@ -117,6 +117,16 @@ void FitRun::stand_at(const FitMinimum& minimum) {
     for (std::size_t i = 0; i < views_.size(); ++i) views_[i].log_gain_start = minimum.log_gains[i];
 }
 
+void FitRun::show_search() {
+    if (request_.look) {
+        cost_ = cost_now();
+        check_stop();
+        report_.cost_curve.push_back(cost_);
+        show_look();
+    }
+    tell(share_);
+}
+
 FitMinimum FitRun::standing() const {
     FitMinimum minimum{.x = evaluator_->x, .log_gains = {}, .cost = cost_};
     for (const FitView& view : views_) minimum.log_gains.push_back(view.log_gain_start);
@@ -168,7 +178,10 @@ bool FitRun::explore_coatings() {
     for (const FitView& view : views_) samples += view.data.count;
     const double misfit = std::max(1.0, 2.0 * cost_now() / (3.0 * static_cast<double>(samples)));
     const auto found =
-        search.explore(standing(), most_chi2_above * misfit, stop_, [&] { tell(share_); });
+        search.explore(standing(), most_chi2_above * misfit, stop_, [&](const FitMinimum& best) {
+            stand_at(best);
+            show_search();
+        });
     check_stop();
     report_.iterations += search.iterations();
     // On all samples. The difference of two costs scatters more than for independent samples: noise

@@ -214,6 +214,7 @@ void FitRun::take_kinds(KindSearch& search, const KindChoice& choice) {
     stand_at({.x = trial.x, .log_gains = trial.log_gains, .cost = trial.cost});
     evaluator_->linearised_at = at;
     search.now = choice;
+    show_search();
     if (search.is_better(choice, search.best)) search.best = choice;
 }
 
