@@ -20,6 +20,7 @@
 #include "core/ghosts/ghost_path.h"
 #include "core/optics/optical_system.h"
 #include "core/units.h"
+#include "widgets/blocking_trace.h"
 #include "widgets/main_window.h"
 #include "widgets/models/prescription_model.h"
 #include "widgets/panels/banner.h"
@@ -49,6 +50,7 @@ Opens the lens-flare workbench, on a lens file if one is given.
   --engine NAME   what draws flares, this time: automatic, cpu or opengl
   --language CODE texts in this language, this time: en or de
   --size WxH      size of the window in pixels, e.g. 1366x768
+  --trace-blocking  say on stderr which events held up the window for 50 ms or more
   --help          this text
   --version       the version
 
@@ -218,7 +220,7 @@ int main(int argc, char** argv) {
         qputenv("QT_QPA_PLATFORM", "xcb");
     }
     set_surface_format();
-    QApplication application(argc, argv);
+    ghostlight::TracedApplication application(argc, argv);
     QCoreApplication::setApplicationName("ghostlight");
     QCoreApplication::setOrganizationName("ghostlight");
     QCoreApplication::setApplicationVersion(GHOSTLIGHT_VERSION);
@@ -239,10 +241,15 @@ int main(int argc, char** argv) {
                         {"theme", "", "NAME"},
                         {"do", "", "ACTIONS"},
                         {"ghost", "", "PAIRS"},
-                        {"study", "", "NAME"}});
+                        {"study", "", "NAME"},
+                        {"trace-blocking", ""}});
     options.addPositionalArgument("LENS", "");
     if (!options.parse(QCoreApplication::arguments())) {
         return fail(options.errorText().toStdString() + " (see --help)");
+    }
+    if (options.isSet("trace-blocking")) {
+        application.trace(ghostlight::TracedApplication::default_least_ms,
+                          ghostlight::TracedApplication::print);
     }
     const QString wanted = options.value("language");
     if (options.isSet("language") && !ghostlight::languages().contains(wanted)) {

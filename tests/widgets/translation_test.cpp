@@ -154,6 +154,23 @@ TEST(Translation, TranslationsKeepThePlacesOfWhatIsPutIn) {
     EXPECT_GT(compared, 300U);
 }
 
+TEST(Translation, NoTextWaitsForItsTranslation) {
+    std::size_t texts = 0;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(source_folder() / "widgets/translations")) {
+        if (entry.path().extension() != ".ts") {
+            continue;
+        }
+        for (const Message& message : messages_of(entry.path())) {
+            ++texts;
+            EXPECT_FALSE(message.unfinished)
+                << entry.path().filename() << ", " << qPrintable(message.context) << ": "
+                << qPrintable(message.source) << " (./dev translate, then translate it there)";
+        }
+    }
+    EXPECT_GT(texts, 1000U);
+}
+
 /// Where words in a source are not for people who use the window, and why.
 const std::map<std::string, std::set<std::string>>& words_of_no_language() {
     static const std::map<std::string, std::set<std::string>> words = {
