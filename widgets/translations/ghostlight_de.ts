@@ -1267,6 +1267,113 @@ negativ vor dem Sensor.</translation>
     </message>
 </context>
 <context>
+    <name>LensQuantities</name>
+    <message>
+        <source>Focal length</source>
+        <translation>Brennweite</translation>
+    </message>
+    <message>
+        <source>Back focal distance</source>
+        <translation>Bildseitige Schnittweite</translation>
+    </message>
+    <message>
+        <source>Front focal distance</source>
+        <translation>Dingseitige Schnittweite</translation>
+    </message>
+    <message>
+        <source>F-number</source>
+        <translation>Blendenzahl</translation>
+    </message>
+    <message>
+        <source>Entrance pupil, place</source>
+        <translation>Eintrittspupille, Lage</translation>
+    </message>
+    <message>
+        <source>Entrance pupil, radius</source>
+        <translation>Eintrittspupille, Radius</translation>
+    </message>
+    <message>
+        <source>Exit pupil, place</source>
+        <translation>Austrittspupille, Lage</translation>
+    </message>
+    <message>
+        <source>Exit pupil, radius</source>
+        <translation>Austrittspupille, Radius</translation>
+    </message>
+    <message>
+        <source>Sensor distance</source>
+        <translation>Sensorabstand</translation>
+    </message>
+    <message>
+        <source>Defocus</source>
+        <translation>Defokussierung</translation>
+    </message>
+    <message>
+        <source>Ghosts</source>
+        <translation>Reflexe</translation>
+    </message>
+    <message>
+        <source>Front principal point</source>
+        <translation>Dingseitiger Hauptpunkt</translation>
+    </message>
+    <message>
+        <source>Rear principal point</source>
+        <translation>Bildseitiger Hauptpunkt</translation>
+    </message>
+    <message>
+        <source>Front nodal point</source>
+        <translation>Dingseitiger Knotenpunkt</translation>
+    </message>
+    <message>
+        <source>Rear nodal point</source>
+        <translation>Bildseitiger Knotenpunkt</translation>
+    </message>
+    <message>
+        <source>Pupil magnification</source>
+        <translation>Pupillenmaßstab</translation>
+    </message>
+    <message>
+        <source>Working f-number</source>
+        <translation>Wirksame Blendenzahl</translation>
+    </message>
+    <message>
+        <source>Numerical aperture</source>
+        <translation>Numerische Apertur</translation>
+    </message>
+    <message>
+        <source>Image height</source>
+        <translation>Bildhöhe</translation>
+    </message>
+    <message>
+        <source>Half field, to the corner</source>
+        <translation>Halbes Feld, zur Ecke</translation>
+    </message>
+    <message>
+        <source>Half field, to first order</source>
+        <translation>Halbes Feld, paraxial</translation>
+    </message>
+    <message>
+        <source>Half field, horizontal</source>
+        <translation>Halbes Feld, waagerecht</translation>
+    </message>
+    <message>
+        <source>Half field, vertical</source>
+        <translation>Halbes Feld, senkrecht</translation>
+    </message>
+    <message>
+        <source>Total track</source>
+        <translation>Baulänge</translation>
+    </message>
+    <message>
+        <source>Petzval sum</source>
+        <translation>Petzval-Summe</translation>
+    </message>
+    <message>
+        <source>Higher reflections</source>
+        <translation>Höhere Spiegelungen</translation>
+    </message>
+</context>
+<context>
     <name>NoteTableModel</name>
     <message>
         <source>Where</source>
@@ -2239,6 +2346,10 @@ sodass die Spalte mehr ergibt als alle Reflexe.</translation>
     <message>
         <source>R % over wavelength, %1°</source>
         <translation>R % über Wellenlänge, %1°</translation>
+    </message>
+    <message>
+        <source>surface %1 · %2 to %3</source>
+        <translation>Fläche %1 · %2 zu %3</translation>
     </message>
 </context>
 <context>
@@ -4053,6 +4164,10 @@ Gläser zuerst kommen</translation>
         <source>Ringing</source>
         <translation>Ringe</translation>
     </message>
+    <message>
+        <source>Shown</source>
+        <translation>Gezeigt</translation>
+    </message>
 </context>
 <context>
     <name>ghostlight::LayoutPanel</name>
@@ -5465,10 +5580,6 @@ curvature N, thickness N, semi-diameter N, coating N (ein Faktor auf die Schicht
         <translation>&apos;%1&apos; Punkte: erwartet 2 bis %2</translation>
     </message>
     <message>
-        <source>Stop</source>
-        <translation>Blende</translation>
-    </message>
-    <message>
         <source>%1 of %2</source>
         <translation>%1 von %2</translation>
     </message>
@@ -5496,6 +5607,11 @@ curvature N, thickness N, semi-diameter N, coating N (ein Faktor auf die Schicht
         <source>Tables (*.csv)</source>
         <translation>Tabellen (*.csv)</translation>
     </message>
+    <message>
+        <source>Stop</source>
+        <comment>the sweep</comment>
+        <translation>Anhalten</translation>
+    </message>
 </context>
 <context>
     <name>ghostlight::SweepView</name>
@@ -5520,6 +5636,14 @@ Oben benennen und Durchlauf drücken.</translation>
     <message>
         <source>%1   worst at %2%3</source>
         <translation>%1   am schlimmsten bei %2%3</translation>
+    </message>
+    <message>
+        <source>Flares and curves of the sweep</source>
+        <translation>Reflexbilder und Kurven des Durchlaufs</translation>
+    </message>
+    <message>
+        <source>A click takes a flare&apos;s value, or chooses a curve&apos;s ghost. Keys: ← → go from flare to flare, Return takes its value, ↑ ↓ choose a curve</source>
+        <translation>Ein Klick nimmt den Wert eines Reflexbilds, oder wählt den Reflex einer Kurve. Tasten: ← → gehen von Bild zu Bild, Eingabe nimmt den Wert, ↑ ↓ wählen eine Kurve</translation>
     </message>
 </context>
 <context>
