@@ -98,6 +98,13 @@ std::vector<Omission> diffraction_omissions(const FlareScene& scene, const Flare
     std::vector<Omission> omissions;
     if (Omission each = fringes(scene, request, plan); each.ghosts > 0)
         omissions.push_back(std::move(each));
+    if (plan.fringes_left_out.ghosts > 0)
+        omissions.push_back(
+            {.what = "fringes that change little",
+             .why = "all that these would change is less than half of the tolerance",
+             .ghosts = plan.fringes_left_out.ghosts,
+             .bound_mm2 = plan.fringes_left_out.changed_mm2,
+             .proven = false});
     omissions.push_back(starburst(scene, request));
     return omissions;
 }

@@ -1,260 +1,125 @@
 #include "core/flare/draw_rung.h"
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "core/flare/rung_kernel.h"
+
 namespace ghostlight {
 namespace {
 
+/// Below this area (twice, px²) a triangle has no middle of a pixel to speak of.
+constexpr double thin_px2 = 1e-9;
+/// Slower than this per pixel, w does not change along a row.
+constexpr float least_step_w = 1e-6F;
+/// A row no longer than this is drawn as it is: finding where nothing changes costs more.
+constexpr int short_row_px = 8;
+
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 
-/// A value that is linear over a triangle.
-struct Linear {
-    float first = 0.0F, right = 0.0F, up = 0.0F;  ///< at the first corner; per pixel
+/// Pixels of a row, the last not included.
+struct Range {
+    int first, last;
+    bool empty() const { return first >= last; }
 };
 
-/// A triangle in a canvas's pixels.
-class Placed {
-   public:
-    Placed(const RungTriangle& triangle, const RungCanvas& canvas) {
-        for (std::size_t n = 0; n < 3; ++n) {
-            x_[n] = static_cast<double>(triangle.column[n]) * canvas.size.scale +
-                    canvas.size.margin_px - canvas.left_px;
-            y_[n] = static_cast<double>(triangle.row[n]) * canvas.size.scale +
-                    canvas.size.margin_px - canvas.bottom_px;
-        }
-        ax_ = x_[1] - x_[0];
-        ay_ = y_[1] - y_[0];
-        bx_ = x_[2] - x_[0];
-        by_ = y_[2] - y_[0];
-        const double twice = ax_ * by_ - ay_ * bx_;
-        inverse_ = std::abs(twice) > 1e-9 ? 1.0 / twice : 0.0;
-    }
-    bool is_thin() const { return inverse_ == 0.0; }
-
-    Linear linear(const float (&at)[3]) const {
-        const double d1 = static_cast<double>(at[1] - at[0]);
-        const double d2 = static_cast<double>(at[2] - at[0]);
-        return {at[0], static_cast<float>((d1 * by_ - d2 * ay_) * inverse_),
-                static_cast<float>((d2 * ax_ - d1 * bx_) * inverse_)};
-    }
-    float at(const Linear& value, int column, int row) const {
-        return value.first + value.right * static_cast<float>(column + 0.5 - x_[0]) +
-               value.up * static_cast<float>(row + 0.5 - y_[0]);
-    }
-    /// First row whose middle is inside, and one past the last.
-    std::array<int, 2> rows() const {
-        const auto [low, high] = std::minmax({y_[0], y_[1], y_[2]});
-        return {static_cast<int>(std::ceil(low - 0.5)), static_cast<int>(std::ceil(high - 0.5))};
-    }
-    /// Of a row, half open, so that neighbours share no pixel.
-    std::array<int, 2> columns(int row, int width_px) const {
-        double from = 1e300, to = -1e300;
-        for (std::size_t s = 0; s < 3; ++s) {
-            const std::size_t a = s, b = (s + 1) % 3;
-            if ((y_[a] <= row + 0.5) == (y_[b] <= row + 0.5)) continue;
-            // From the lower end, so that both neighbours compute the same.
-            const std::size_t below = y_[a] < y_[b] ? a : b, above = y_[a] < y_[b] ? b : a;
-            const double x = x_[below] + (row + 0.5 - y_[below]) * (x_[above] - x_[below]) /
-                                             (y_[above] - y_[below]);
-            from = std::min(from, x);
-            to = std::max(to, x);
-        }
-        if (!(from < to)) return {0, 0};
-        from = std::clamp(from, -1.0, width_px + 1.0);
-        to = std::clamp(to, -1.0, width_px + 1.0);
-        return {std::max(0, static_cast<int>(std::ceil(from - 0.5))),
-                std::min(width_px, static_cast<int>(std::ceil(to - 0.5)))};
-    }
-
-   private:
-    double x_[3], y_[3], ax_, ay_, bx_, by_, inverse_;
-};
-
-/// A rim over a triangle.
-struct PlacedRim {
-    const RimGroup* group = nullptr;
-    Linear w;
-    float per_ramp = 0.0F;  ///< 1 over the change of w along the picture's own rim
-
-    /// Share of the pixel inside, as the picture has it.
-    float covered(float at) const { return std::clamp(0.5F + at * per_ramp, 0.0F, 1.0F); }
-};
-
-PlacedRim placed(const RungMesh& mesh, const RimAt& rim, const Placed& triangle,
-                 const RungCanvas& canvas) {
-    PlacedRim result;
-    result.group = &mesh.groups[rim.group];
-    result.w = triangle.linear(rim.w);
-    const float slope = std::abs(result.w.right) + std::abs(result.w.up);
-    result.per_ramp =
-        1.0F / std::max(slope * static_cast<float>(mesh.rim_px * canvas.size.scale), 1e-9F);
-    return result;
+/// Where a value that is `a` at the first of them, and goes by 1/`per_step`, is above `least`, a
+/// pixel more rather than one less; `per_step` 0: it stays.
+Range where_above(float a, float per_step, float least, const Range& of) {
+    if (per_step == 0.0F) return a > least ? of : Range{of.first, of.first};
+    const auto at = static_cast<float>(of.first) + (least - a) * per_step;
+    const int here = static_cast<int>(
+        std::clamp(at, static_cast<float>(of.first) - 1.0F, static_cast<float>(of.last) + 1.0F));
+    return per_step > 0.0F ? Range{std::max(of.first, here), of.last}
+                           : Range{of.first, std::min(of.last, here + 1)};
 }
 
-/// The part of a row where one rim's profile and the picture's differ.
-std::array<int, 2> within_reach(const PlacedRim& rim, float w, std::array<int, 2> columns) {
-    const RimProfile& profile = rim.group->profile;
-    const float ramp = 0.5F / rim.per_ramp;
-    const float low = -std::max(profile.shadow, ramp), high = std::max(profile.light, ramp);
-    if (std::abs(rim.w.right) < 1e-6F) {
-        if (w < low || w > high) return {0, 0};
-        return columns;
-    }
-    const float a = (low - w) / rim.w.right, b = (high - w) / rim.w.right;
-    const float count = static_cast<float>(columns[1] - columns[0]);
-    const float from = std::clamp(std::min(a, b), 0.0F, count);
-    const float to = std::clamp(std::max(a, b) + 1.0F, 0.0F, count);
-    return {columns[0] + static_cast<int>(from), columns[0] + static_cast<int>(std::ceil(to))};
+/// The same, a pixel less rather than one more.
+Range well_above(float a, float per_step, float least, const Range& of) {
+    Range range = where_above(a, per_step, least, of);
+    const bool from_first = a > least, to_last = range.last == of.last && range.first < of.last;
+    if (per_step > 0.0F && !from_first) range.first += 2;
+    if (per_step < 0.0F && !to_last) range.last -= 2;
+    return range;
 }
 
-using Color = Eigen::Array4f;
+/// Values of a table for each step of a profile: read without interpolation, they are off by no
+/// more than a quarter of a step's slope.
+constexpr int finer = 2;
 
-Color color_of(const RimColor& color) { return Eigen::Map<const Color>(color.data()); }
-
-/// A row of a canvas from some pixel on.
-class RowOf {
-   public:
-    RowOf(const RungCanvas& canvas, int row, int first)
-        : rgb_step_(canvas.rgb == nullptr ? 0 : canvas.rgb_step),
-          irradiance_step_(canvas.irradiance_step),
-          is_together_(canvas.rgb_step == rim_channels && canvas.rgb != nullptr) {
-        const std::size_t pixel = idx(row) * idx(canvas.size.width_px) + idx(first);
-        rgb_ = canvas.rgb == nullptr ? nullptr : canvas.rgb + rgb_step_ * pixel;
-        irradiance_ = canvas.irradiance + irradiance_step_ * pixel;
-    }
-    /// To the next pixel.
-    void add(const Color& change) {
-        if (is_together_) {
-            Eigen::Map<Color> sum(rgb_);
-            sum += change;
-            rgb_ += rim_channels;
-            return;
-        }
-        *irradiance_ += change[rim_channels - 1];
-        irradiance_ += irradiance_step_;
-        if (rgb_ == nullptr) return;
-        for (int c = 0; c < 3; ++c) rgb_[c] += change[c];
-        rgb_ += rgb_step_;
-    }
-
-    void skip() {
-        irradiance_ += irradiance_step_;
-        if (rgb_ != nullptr) rgb_ += rgb_step_;
-    }
-
-   private:
-    std::size_t rgb_step_, irradiance_step_;
-    bool is_together_;
-    float *rgb_, *irradiance_;
-};
-
-/// A profile as pixels of a triangle have it.
-class PixelProfile {
-   public:
-    explicit PixelProfile(const PlacedRim& rim)
-        : profile_(rim.group->profile),
-          half_(0.5F * std::sqrt(rim.w.right * rim.w.right + rim.w.up * rim.w.up)),
-          most_(static_cast<float>(profile_.values.size() - 1) * 0.99999F) {}
-    Color at(float w) const {
-        if (half_ > fine_half_span) return color_of(profile_.mean(w, half_));
-        const float place = std::clamp((w + profile_.shadow) * profile_.steps_per_w, 0.0F, most_);
-        const int below = static_cast<int>(place);
-        const Color low = color_of(profile_.values[idx(below)]);
-        const Color high = color_of(profile_.values[idx(below) + 1]);
-        return low + (place - static_cast<float>(below)) * (high - low);
-    }
-
-   private:
-    /// Where a pixel spans no more of w than twice this, the profile at its middle is its mean.
-    static constexpr float fine_half_span = 0.06F;
-    const RimProfile& profile_;
-    float half_, most_;
-};
-
-/// A rim along a row.
-struct RowRim {
-    RimKind kind;
-    PixelProfile profile;
-    float w, step, per_ramp;
-    float dark_to, lit_from;  ///< w of pixels for which it is nothing or all, in the picture too
-};
-
-/// Most pixels that fringes change lie at one rim alone.
-void draw_one_rim(const RungMesh& mesh, const Placed& triangle, const PlacedRim& rim,
-                  const Linear& light, const RungCanvas& canvas, int row,
-                  std::array<int, 2> columns) {
-    const auto [first, last] = within_reach(rim, triangle.at(rim.w, columns[0], row), columns);
-    if (first >= last) return;
-    const float w = triangle.at(rim.w, first, row), l = triangle.at(light, first, row);
-    const PixelProfile profile(rim);
-    const Color color = color_of(mesh.color);
-    RowOf pixels(canvas, row, first);
-    for (int k = 0; k < last - first; ++k) {
-        const auto step = static_cast<float>(k);
-        const float at = w + step * rim.w.right;
-        pixels.add(((l + step * light.right) * (profile.at(at) - rim.covered(at))) * color);
-    }
+/// A profile's means over 2 · half_steps of its steps, what a pixel has that spans so many; from
+/// half_steps before its first value to as many after its last.
+std::vector<RimColor> means_of(const RimProfile& profile, int half_steps) {
+    const int count = static_cast<int>(profile.values.size());
+    const float step_w = 1.0F / profile.steps_per_w;
+    const auto mean = [&](int k) {
+        if (half_steps == 0) return profile.values[idx(k)];
+        const int beyond = std::max(0, k - (count - 1));
+        const RimColor& high = profile.below[idx(std::min(k, count - 1))];
+        const RimColor& low = profile.below[idx(std::max(0, k - 2 * half_steps))];
+        RimColor value;
+        for (std::size_t c = 0; c < rim_channels; ++c)
+            value[c] = (high[c] + static_cast<float>(beyond) * step_w - low[c]) /
+                       (2.0F * static_cast<float>(half_steps) * step_w);
+        return value;
+    };
+    const int last = count + 2 * half_steps - 1;
+    std::vector<RimColor> means(idx(finer * last + 1));
+    for (int k = 0; k <= last; ++k) means[idx(finer * k)] = mean(k);
+    for (std::size_t k = 1; k + 1 < means.size(); k += finer)
+        for (std::size_t c = 0; c < rim_channels; ++c)
+            means[k][c] = 0.5F * (means[k - 1][c] + means[k + 1][c]);
+    return means;
 }
 
 /// Of a mask that is propagated: its light, in the ghost's colours.
-Color masked_color(const RungMesh& mesh, float u, float v) {
-    Color color = Color::Zero();
-    for (std::size_t p = 0; p < mesh.masks->size(); ++p)
-        color +=
-            color_of(mesh.mask_shares[p]) *
+RimColor masked_color(const RungMesh& mesh, float u, float v) {
+    RimColor color{};
+    for (std::size_t p = 0; p < mesh.masks->size(); ++p) {
+        const auto light =
             static_cast<float>((*mesh.masks)[p].at(static_cast<double>(u), static_cast<double>(v)));
+        for (std::size_t c = 0; c < rim_channels; ++c) color[c] += mesh.mask_shares[p][c] * light;
+    }
     return color;
 }
 
-/// At a corner, or of a propagated mask: the product of the rims. `along`: a place to work in.
-void draw_rims(const RungMesh& mesh, const Placed& triangle, const std::vector<PlacedRim>& rims,
-               const RungTriangle& own, const RungCanvas& canvas, int row,
-               std::array<int, 2> columns, std::vector<RowRim>& along) {
-    if (columns[0] >= columns[1]) return;
-    const Linear light = triangle.linear(own.light);
-    const Linear u = triangle.linear(own.u), v = triangle.linear(own.v);
-    const Color color = color_of(mesh.color);
-    RowOf pixels(canvas, row, columns[0]);
-    along.clear();
-    for (const PlacedRim& rim : rims)
-        along.push_back({rim.group->kind, PixelProfile(rim), triangle.at(rim.w, columns[0], row),
-                         rim.w.right, rim.per_ramp,
-                         -std::max(rim.group->profile.shadow, 0.5F / rim.per_ramp),
-                         std::max(rim.group->profile.light, 0.5F / rim.per_ramp)});
-    const float first_light = triangle.at(light, columns[0], row);
-    for (int column = columns[0]; column < columns[1]; ++column) {
-        const auto step = static_cast<float>(column - columns[0]);
-        bool is_dark = false, is_lit = mesh.masks == nullptr;
-        for (const RowRim& rim : along) {
-            const float at = rim.w + step * rim.step;
-            is_dark = is_dark || (rim.kind != RimKind::masked && at <= rim.dark_to);
-            is_lit = is_lit && at >= rim.lit_from;
-        }
-        if (is_dark || is_lit) {
-            pixels.skip();
-            continue;
-        }
-        Color change = color;
-        if (mesh.masks != nullptr)
-            change = masked_color(mesh, triangle.at(u, column, row), triangle.at(v, column, row));
-        float covered = 1.0F;
-        for (const RowRim& rim : along) {
-            const float at = rim.w + step * rim.step;
-            if (at >= rim.lit_from) continue;
-            const float own_cover = std::clamp(0.5F + at * rim.per_ramp, 0.0F, 1.0F);
-            covered *= own_cover;
-            if (rim.kind == RimKind::fringed)
-                change *= rim.profile.at(at);
-            else if (rim.kind == RimKind::sharp)
-                change *= own_cover;
-        }
-        pixels.add((first_light + step * light.right) * (change - color * covered));
+/// A row's pixels as a kernel adds to them: where they lie side by side, in place.
+class RowOf {
+   public:
+    RowOf(const RungCanvas& canvas, int row, int first) {
+        const std::size_t pixel = idx(row) * idx(canvas.size.width_px) + idx(first);
+        irradiance_ = canvas.irradiance + canvas.irradiance_step * pixel;
+        irradiance_step_ = canvas.irradiance_step;
+        if (canvas.rgb == nullptr) return;
+        rgb_ = canvas.rgb + canvas.rgb_step * pixel;
+        rgb_step_ = canvas.rgb_step;
+        together_ = canvas.rgb_step == rim_channels;
     }
-}
+    float* begin(std::size_t count) {
+        begun_ = true;
+        if (together_) return rgb_;
+        std::fill_n(apart_.begin(), count * rim_channels, 0.0F);
+        return apart_.data();
+    }
+    /// Takes over what was added to `count` pixels, and goes on behind them.
+    void end(std::size_t count) {
+        for (std::size_t k = 0; begun_ && !together_ && k < count; ++k) {
+            irradiance_[k * irradiance_step_] += apart_[rim_channels * k + rim_channels - 1];
+            for (std::size_t c = 0; rgb_ != nullptr && c < 3; ++c)
+                rgb_[k * rgb_step_ + c] += apart_[rim_channels * k + c];
+        }
+        irradiance_ += count * irradiance_step_;
+        if (rgb_ != nullptr) rgb_ += count * rgb_step_;
+        begun_ = false;
+    }
+
+   private:
+    float *irradiance_ = nullptr, *rgb_ = nullptr;
+    std::size_t irradiance_step_ = 1, rgb_step_ = 0;
+    bool together_ = false, begun_ = false;
+    std::array<float, rung_chunk * rim_channels> apart_;
+};
 
 }  // namespace
 
@@ -270,44 +135,214 @@ RungCanvas canvas_of(std::vector<float>& values, int channels, const RasterSize&
     return canvas;
 }
 
-std::vector<std::vector<std::uint32_t>> sorted_by_band(const RungMesh& mesh, const RasterSize& size,
-                                                       int band_rows) {
-    std::vector<std::vector<std::uint32_t>> bands(
-        idx((size.height_px + band_rows - 1) / band_rows));
-    const double most = size.height_px - 0.5;
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        const auto& row = mesh.triangles[t].row;
-        const auto [low, high] = std::minmax({row[0], row[1], row[2]});
-        auto band_of = [&](float at) {
-            const double own = static_cast<double>(at) * size.scale + size.margin_px;
-            return static_cast<int>(std::clamp(own, 0.0, most)) / band_rows;
-        };
-        for (int b = band_of(low); b <= band_of(high); ++b) bands[idx(b)].push_back(t);
-    }
-    return bands;
+RungDrawing::RungDrawing(const RungMesh& mesh, const RungCanvas& canvas, int band_rows)
+    : mesh_(&mesh), canvas_(canvas), band_rows_(band_rows) {
+    triangles_.reserve(mesh.triangles.size());
+    rims_.reserve(mesh.rims.size());
+    for (const RungTriangle& triangle : mesh.triangles) place(triangle);
+    sort_by_band();
 }
 
-void draw_rung(const RungMesh& mesh, std::span<const std::uint32_t> triangles,
-               const RungCanvas& canvas, int first_row, int last_row) {
-    std::vector<PlacedRim> rims;
-    std::vector<RowRim> along;
-    for (const std::uint32_t t : triangles) {
-        const RungTriangle& own = mesh.triangles[t];
-        const Placed triangle(own, canvas);
-        if (triangle.is_thin()) continue;
-        rims.clear();
-        for (std::uint32_t r = 0; r < own.rim_count; ++r)
-            rims.push_back(placed(mesh, mesh.rims[own.first_rim + r], triangle, canvas));
-        const bool one_rim = mesh.masks == nullptr && rims.size() == 1;
-        const Linear light = triangle.linear(own.light);
-        const auto [low, high] = triangle.rows();
-        for (int row = std::max(first_row, low); row < std::min(last_row, high); ++row) {
-            const auto columns = triangle.columns(row, canvas.size.width_px);
-            if (one_rim)
-                draw_one_rim(mesh, triangle, rims.front(), light, canvas, row, columns);
-            else
-                draw_rims(mesh, triangle, rims, own, canvas, row, columns, along);
+void RungDrawing::place(const RungTriangle& triangle) {
+    double x[3], y[3];
+    for (std::size_t n = 0; n < 3; ++n) {
+        x[n] = static_cast<double>(triangle.column[n]) * canvas_.size.scale +
+               canvas_.size.margin_px - canvas_.left_px;
+        y[n] = static_cast<double>(triangle.row[n]) * canvas_.size.scale + canvas_.size.margin_px -
+               canvas_.bottom_px;
+    }
+    const auto [low, high] = std::minmax({y[0], y[1], y[2]});
+    Placed placed;
+    // Rows whose middles are inside.
+    const auto row_of = [&](double at) {
+        return static_cast<int>(std::ceil(std::clamp(at, 0.0, canvas_.size.height_px + 1.0) - 0.5));
+    };
+    placed.first_row = row_of(low);
+    placed.last_row = std::min(canvas_.size.height_px, row_of(high));
+    const double a[2] = {x[1] - x[0], y[1] - y[0]}, b[2] = {x[2] - x[0], y[2] - y[0]};
+    const double twice_px2 = a[0] * b[1] - a[1] * b[0];
+    if (!(std::abs(twice_px2) > thin_px2) || placed.first_row >= placed.last_row) return;
+    placed.x = x[0];
+    placed.y = y[0];
+    std::array<std::size_t, 3> up{0, 1, 2};
+    std::ranges::sort(up, {}, [&](std::size_t n) { return y[n]; });
+    const auto side = [&](std::size_t from, std::size_t to) {
+        const double rise = y[to] - y[from];
+        return Side{y[from], x[from], rise > 0.0 ? (x[to] - x[from]) / rise : 0.0};
+    };
+    placed.long_side = side(up[0], up[2]);
+    placed.low_side = side(up[0], up[1]);
+    placed.high_side = side(up[1], up[2]);
+    placed.middle = y[up[1]];
+    const double inverse = 1.0 / twice_px2;
+    const auto linear = [&](const float(&at)[3]) {
+        const double d1 = static_cast<double>(at[1] - at[0]);
+        const double d2 = static_cast<double>(at[2] - at[0]);
+        return Linear{at[0], static_cast<float>((d1 * b[1] - d2 * a[1]) * inverse),
+                      static_cast<float>((d2 * a[0] - d1 * b[0]) * inverse)};
+    };
+    placed.light = linear(triangle.light);
+    if (mesh_->masks != nullptr) {
+        placed.u = linear(triangle.u);
+        placed.v = linear(triangle.v);
+    }
+    placed.first_rim = static_cast<std::uint32_t>(rims_.size());
+    placed.rim_count = triangle.rim_count;
+    for (std::uint32_t r = 0; r < placed.rim_count; ++r) {
+        const RimAt& at = mesh_->rims[triangle.first_rim + r];
+        rims_.push_back(rim_of(at.group, linear(at.w)));
+    }
+    triangles_.push_back(placed);
+}
+
+RungDrawing::Rim RungDrawing::rim_of(std::uint32_t group, const Linear& w) {
+    const RimProfile& profile = mesh_->groups[group].profile;
+    Rim rim;
+    rim.group = group;
+    rim.kind = mesh_->groups[group].kind;
+    rim.w = w;
+    const float slope = std::abs(w.right) + std::abs(w.up);
+    rim.per_ramp =
+        1.0F / std::max(slope * static_cast<float>(mesh_->rim_px * canvas_.size.scale), 1e-9F);
+    if (std::abs(w.right) >= least_step_w) rim.per_step = 1.0F / w.right;
+    float half_w = 0.0F;
+    if (rim.kind == RimKind::fringed) {
+        // No pixel of a ghost spans more than its whole profile.
+        const float span_w = std::sqrt(w.right * w.right + w.up * w.up);
+        const auto most = static_cast<float>(profile.values.size());
+        const int half_steps =
+            static_cast<int>(std::min(0.5F * span_w * profile.steps_per_w + 0.5F, most));
+        auto& table = tables_[{group, half_steps}];
+        if (table.empty()) table = means_of(profile, half_steps);
+        rim.table = &table;
+        rim.first_step =
+            finer * (profile.shadow * profile.steps_per_w + static_cast<float>(half_steps)) + 0.5F;
+        half_w = static_cast<float>(half_steps) / profile.steps_per_w;
+    }
+    const float ramp = 0.5F / rim.per_ramp;
+    rim.dark = std::max(profile.shadow + half_w, ramp);
+    rim.light = std::max(profile.light + half_w, ramp);
+    return rim;
+}
+
+void RungDrawing::sort_by_band() {
+    const int bands = (canvas_.size.height_px + band_rows_ - 1) / band_rows_;
+    first_of_band_.assign(idx(bands) + 1, 0);
+    for (const Placed& triangle : triangles_)
+        for (int b = triangle.first_row / band_rows_; b <= (triangle.last_row - 1) / band_rows_;
+             ++b)
+            ++first_of_band_[idx(b) + 1];
+    for (std::size_t b = 1; b < first_of_band_.size(); ++b)
+        first_of_band_[b] += first_of_band_[b - 1];
+    by_band_.resize(first_of_band_.back());
+    std::vector<std::uint32_t> next(first_of_band_.begin(), first_of_band_.end() - 1);
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t)
+        for (int b = triangles_[t].first_row / band_rows_;
+             b <= (triangles_[t].last_row - 1) / band_rows_; ++b)
+            by_band_[next[idx(b)]++] = t;
+}
+
+void RungDrawing::draw(int band) const {
+    if (mesh_ == nullptr) return;
+    const int from = band * band_rows_, to = from + band_rows_;
+    std::vector<RungRimView> rims;
+    for (std::uint32_t k = first_of_band_[idx(band)]; k < first_of_band_[idx(band) + 1]; ++k) {
+        const Placed& triangle = triangles_[by_band_[k]];
+        const int last_row = std::min(to, triangle.last_row);
+        for (int row = std::max(from, triangle.first_row); row < last_row; ++row) {
+            const double middle = row + 0.5;
+            const double one = triangle.long_side.at(middle);
+            const double other = middle < triangle.middle ? triangle.low_side.at(middle)
+                                                          : triangle.high_side.at(middle);
+            const double left = std::min(one, other), right = std::max(one, other);
+            // Half open, so that neighbours share no pixel.
+            const double most = canvas_.size.width_px + 1.0;
+            const int first = static_cast<int>(std::ceil(std::clamp(left, 0.0, most) - 0.5));
+            const int last = static_cast<int>(std::ceil(std::clamp(right, 0.0, most) - 0.5));
+            draw_row(triangle, row, first, std::min(last, canvas_.size.width_px), rims);
         }
+    }
+}
+
+void RungDrawing::draw_row(const Placed& triangle, int row, int first, int last,
+                           std::vector<RungRimView>& rims) const {
+    if (last - first <= short_row_px) {
+        draw_piece(triangle, row, first, last, rims);
+        return;
+    }
+    Range bright{first, last}, lit{first, last};
+    const auto right = static_cast<float>(first + 0.5 - triangle.x);
+    const auto up = static_cast<float>(row + 0.5 - triangle.y);
+    for (std::uint32_t r = 0; r < triangle.rim_count; ++r) {
+        const Rim& rim = rims_[triangle.first_rim + r];
+        const float w = rim.w.first + rim.w.right * right + rim.w.up * up;
+        const Range all{first, last};
+        if (rim.kind != RimKind::masked) {
+            const Range own = where_above(w, rim.per_step, -rim.dark, all);
+            bright = {std::max(bright.first, own.first), std::min(bright.last, own.last)};
+        }
+        const Range own = well_above(w, rim.per_step, rim.light, all);
+        lit = {std::max(lit.first, own.first), std::min(lit.last, own.last)};
+    }
+    if (mesh_->masks != nullptr || lit.empty()) {
+        draw_piece(triangle, row, bright.first, bright.last, rims);
+        return;
+    }
+    draw_piece(triangle, row, bright.first, std::min(bright.last, lit.first), rims);
+    draw_piece(triangle, row, std::max(bright.first, lit.last), bright.last, rims);
+}
+
+void RungDrawing::draw_piece(const Placed& triangle, int row, int first, int last,
+                             std::vector<RungRimView>& rims) const {
+    if (first >= last) return;
+    const auto up = static_cast<float>(row + 0.5 - triangle.y);
+    RowOf pixels(canvas_, row, first);
+    std::array<float, rung_chunk * rim_channels> mask;
+    for (int at = first; at < last;) {
+        const int count = std::min(last - at, static_cast<int>(rung_chunk));
+        const auto right = static_cast<float>(at + 0.5 - triangle.x);
+        const auto value = [&](const Linear& of) {
+            return of.first + of.right * right + of.up * up;
+        };
+        RungRowView view{};
+        rims.clear();
+        for (std::uint32_t r = 0; r < triangle.rim_count; ++r) {
+            const Rim& rim = rims_[triangle.first_rim + r];
+            const float w = value(rim.w), w_end = w + static_cast<float>(count - 1) * rim.w.right;
+            // Light all along: nothing changes by it.
+            if (w >= rim.light && w_end >= rim.light) continue;
+            RungRimView& own = rims.emplace_back(
+                RungRimView{nullptr, 0.0F, 0.0F, 0.0F, 0.5F + w * rim.per_ramp,
+                            rim.w.right * rim.per_ramp, rim.kind == RimKind::sharp});
+            if (rim.table == nullptr) continue;
+            const float per_w = finer * mesh_->groups[rim.group].profile.steps_per_w;
+            own.profile = rim.table->front().data();
+            own.place = rim.first_step + w * per_w;
+            own.place_step = rim.w.right * per_w;
+            own.last = static_cast<float>(rim.table->size()) - 0.5F;
+        }
+        view.rims = rims.data();
+        view.rim_count = rims.size();
+        view.light = value(triangle.light);
+        view.light_step = triangle.light.right;
+        view.color = mesh_->color.data();
+        view.count = idx(count);
+        if (mesh_->masks != nullptr) {
+            for (int k = 0; k < count; ++k) {
+                const auto along = static_cast<float>(k);
+                const RimColor color =
+                    masked_color(*mesh_, value(triangle.u) + along * triangle.u.right,
+                                 value(triangle.v) + along * triangle.v.right);
+                std::ranges::copy(color, mask.begin() + rim_channels * k);
+            }
+            view.mask = mask.data();
+        }
+        if (view.rim_count > 0 || view.mask != nullptr) {
+            view.pixels = pixels.begin(view.count);
+            GHOSTLIGHT_DISPATCH(add_fringes, view);
+        }
+        pixels.end(view.count);
+        at += count;
     }
 }
 

@@ -99,7 +99,7 @@ class FirstLook {
 
     /// With polarisation as if all planes of incidence were one, as they are in the meridian.
     std::vector<float> weights_of(const TracePath<float>& path, const MirrorGrid& grid) const {
-        std::vector<float> weights = ghost_weights(scene_, path, grid, {}, {});
+        std::vector<float> weights = ghost_weights(scene_, path, grid, {});
         if (scene_.coating_model != CoatingModel::exact) return weights;
         std::vector<float> polarised;
         scene_.films.polarisation(path, grid.half, polarised);

@@ -2,12 +2,17 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
+#include <optional>
 #include <vector>
 
+#include "core/flare/color_misplacement.h"
 #include "core/ghosts/ghost_path.h"
 #include "core/ghosts/pupil.h"
 
 namespace ghostlight {
+
+struct WeightShares;
 
 /// What becomes of a ghost in a picture.
 enum class GhostFate {
@@ -34,8 +39,10 @@ struct GhostSpot {
 struct FirstLook {
     PupilBox box;               ///< of the nodes that pass, with a cell to spare
     double cells_wanted = 0.0;  ///< across the box, by the first look's errors; 0: not known
-    double shift_px = 0.0;      ///< between the outer geometry wavelengths
-    bool in_double = false;     ///< single precision moves its rays by what shows
+    std::optional<ColorMisplacement> colors;  ///< of a spectrum; empty: not known
+    /// What its weights have beyond the films' tables; null: not known.
+    std::shared_ptr<const WeightShares> shares;
+    bool in_double = false;  ///< single precision moves its rays by what shows
 };
 
 /// How one ghost of a picture is drawn, and what that costs. Fluxes are over E0, mm².
@@ -56,14 +63,21 @@ struct PlannedGhost {
     FirstLook look;
 };
 
+/// Rims that keep their sharp edge since their fringes change too little.
+struct FringesLeftOut {
+    std::size_t ghosts = 0;
+    double changed_mm2 = 0.0;  ///< L1 on the sensor over E0 that they would change, at most
+};
+
 /// What is drawn for a tolerance, how finely, and what is left out.
 struct FlarePlan {
     double tolerance = 0.0;  ///< asked: relative L1 error of the ghost layer on the sensor
     std::vector<PlannedGhost> ghosts;
-    double flux_mm2 = 0.0;      ///< of the ghost layer on the sensor
-    double folded_mm2 = 0.0;    ///< on the sensor, of ghosts that the veil has instead
-    double error_mm2 = 0.0;     ///< estimated, of all that is drawn
-    double left_out_mm2 = 0.0;  ///< sum of the bounds of what is left out
+    double flux_mm2 = 0.0;            ///< of the ghost layer on the sensor
+    double folded_mm2 = 0.0;          ///< on the sensor, of ghosts that the veil has instead
+    double error_mm2 = 0.0;           ///< estimated, of all that is drawn
+    double left_out_mm2 = 0.0;        ///< sum of the bounds of what is left out
+    FringesLeftOut fringes_left_out;  ///< where ringing was asked for
     /// Light of four reflections, which no plan draws: an estimate (plane surfaces at normal
     /// incidence) over that of two.
     double not_modelled = 0.0;

@@ -67,6 +67,13 @@ FlareScene flare_scene(const Prescription& lens, const Spectrum& spectrum, int s
     std::vector<OpticalSystem> geometry =
         compiled(lens, line ? std::vector<double>{*line} : geometry_wavelengths_nm(samples));
     const std::size_t main = geometry.size() / 2;
+    std::vector<double> band_nm;
+    if (geometry.size() > 1) {
+        const ColorAxis axis(samples);
+        constexpr int halves = 2 * FlareScene::most_own_bands;
+        for (int k = 1; k < halves; ++k)
+            band_nm.push_back(axis.wavelength_nm(static_cast<double>(k) / halves));
+    }
     std::vector<GhostPath> ghosts = two_reflection_ghosts(geometry[main]);
     FilmTables films(compiled(lens, weight_nm), threads, model, &geometry[main]);
     return {.spectrum = spectrum,
@@ -74,6 +81,7 @@ FlareScene flare_scene(const Prescription& lens, const Spectrum& spectrum, int s
             .colors = colors,
             .geometry = std::move(geometry),
             .main = main,
+            .band_systems = compiled(lens, band_nm),
             .coating_model = model,
             .films = std::move(films),
             .ghosts = std::move(ghosts),

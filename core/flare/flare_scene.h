@@ -19,6 +19,8 @@ class PropagatedMasks;
 struct FlareScene {
     /// Samples of a spectrum that keep colours within 1 %.
     static constexpr int usual_samples = 16;
+    /// Bands that a ghost may be traced in, each at its own wavelength: powers of two up to this.
+    static constexpr int most_own_bands = 16;
 
     Spectrum spectrum;
     std::vector<SpectralSample> samples;  ///< where weights are evaluated
@@ -28,6 +30,9 @@ struct FlareScene {
     /// colour does not matter.
     std::vector<OpticalSystem> geometry;
     std::size_t main = 0;
+    /// The lens at the middles of 2, 4, … most_own_bands bands, for ghosts in which interpolating
+    /// between the geometry's wavelengths fails. Empty for one wavelength.
+    std::vector<OpticalSystem> band_systems;
     CoatingModel coating_model = CoatingModel::exact;
     FilmTables films;
     std::vector<GhostPath> ghosts;
@@ -36,6 +41,11 @@ struct FlareScene {
 
     bool is_gray() const { return samples.size() == 1; }
     const OpticalSystem& system() const { return geometry[main]; }
+    /// The lens at the middle of one of 2, 4, … most_own_bands bands.
+    const OpticalSystem& at_band(int band, int bands) const {
+        return band_systems[static_cast<std::size_t>((2 * band + 1) * (most_own_bands / bands) -
+                                                     1)];
+    }
     /// Shares of the geometry nodes' positions in the position at a wavelength.
     std::vector<double> interpolation(double wavelength_nm) const;
 };

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/flare/planned_ghost.h"
+#include "core/flare/rim_profile.h"
 #include "core/optics/paraxial.h"
 
 namespace ghostlight {
@@ -33,15 +34,19 @@ struct GhostRims {
     GhostFringes surface;                 ///< of the clear radius that cuts most of what any cuts
     std::vector<GhostFringes> crossings;  ///< of the stop, the last one last
 
+    double stop_rim = 2.0;  ///< length of the stop's rim over its area, in semi-diameters
+    double on_frame = 1.0;  ///< share of the rim that lands on the frame
+
     double least_fresnel_number() const;  ///< of those that show; 0: none
     double px_per_w() const;              ///< the least of those that show
     /// How far, at most, fringes misplace light: as blur_px() of a picture's level.
     double changed_px() const;
-    /// What all their fringes move at most, as a share of the ghost's light.
-    double changed_share() const;
+    /// What all their fringes change on the frame, as a share of all the ghost's light.
+    double changed_share(const EdgeFringes& edge) const;
 };
-/// Which rims cut the beam is seen by the probe's rays; which surface, by first order.
-GhostRims ghost_rims(const OpticalSystem& system, const ProbedGhost& ghost, double field_deg,
-                     double pitch_mm);
+/// Which rims cut the beam, and where they land, is seen by the probe's rays; which surface, by
+/// first order.
+GhostRims ghost_rims(const OpticalSystem& system, const NodePlacement& placement,
+                     const ProbedGhost& ghost, double field_deg);
 
 }  // namespace ghostlight

@@ -10,13 +10,15 @@
 namespace ghostlight {
 namespace {
 
-constexpr int few_cells = 4;  ///< where more error is allowed than least_error
 constexpr int polarised_cells = 6;
 constexpr int closer_cells = 12;      ///< where few of those rays are valid
 constexpr std::size_t few_valid = 4;  ///< one of so many
 constexpr double least_error = 1e-3;  ///< of the light: more is looked at more closely
 /// Where films give hardly any light at one wavelength's angles, ratios mean nothing.
 constexpr float least_color_ratio = 0.25F, most_color_ratio = 4.0F;
+/// Where a table is coarser than what a ray's own weight is made of, such as beside total
+/// reflection.
+constexpr float most_off_table = 4.0F;
 constexpr double steeper_by_rad = 0.1;  ///< than the rays of a grid may be those between them
 
 /// Rays of a half grid that get through all clear radii, and their neighbours, valid or not.
@@ -34,15 +36,21 @@ std::vector<char> beside_light(const MirrorGrid& grid) {
     return lit;
 }
 
+std::size_t sample_next_to(const FlareScene& scene, double wavelength_nm) {
+    return static_cast<std::size_t>(
+        std::ranges::min_element(
+            scene.samples, {},
+            [&](const SpectralSample& s) { return std::abs(s.wavelength_nm - wavelength_nm); }) -
+        scene.samples.begin());
+}
+
 }  // namespace
 
 PolarisedShare polarised_share(const FlareScene& scene, const TracePath<float>& path,
-                               const BeamFrame& beam, const PupilBox& box, double allowed_error) {
+                               const BeamFrame& beam, const PupilBox& box) {
     PolarisedShare result;
     if (scene.coating_model != CoatingModel::exact) return result;
-    const double allowed = std::max(least_error, allowed_error);
-    for (const int cells : {few_cells, polarised_cells, closer_cells}) {
-        if (cells == few_cells && !(allowed > least_error)) continue;
+    for (const int cells : {polarised_cells, closer_cells}) {
         result.grid.box = box;
         result.grid.cells = cells;
         result.grid.half.keep_cosines = !scene.is_gray();
@@ -61,7 +69,7 @@ PolarisedShare polarised_share(const FlareScene& scene, const TracePath<float>& 
         for (std::size_t k = 0; k < rays.size(); ++k)
             if (rays.margin[k] < 0.0F || !(rays.weight_average[k] > 0.0F)) result.ratio[k] = mean;
         result.error = roughness(result.grid, result.ratio);
-        if (few_valid * valid >= rays.size() && result.error < allowed) break;
+        if (few_valid * valid >= rays.size() && result.error < least_error) break;
     }
     return result;
 }
@@ -78,10 +86,16 @@ float share_of_polarisation(float ratio, float in_one_plane) {
 
 }  // namespace
 
+bool ColorShare::is_for(const FlareScene& scene) const {
+    return std::ranges::equal(samples_nm, scene.samples, {}, {}, &SpectralSample::wavelength_nm);
+}
+
 ColorShare color_share(const FlareScene& scene, const GhostPath& path, const BeamFrame& beam,
                        const PolarisedShare& polarised) {
     ColorShare result;
+    for (const SpectralSample& s : scene.samples) result.samples_nm.push_back(s.wavelength_nm);
     if (scene.is_gray() || polarised.ratio.empty()) return result;
+    result.cells = polarised.grid.cells;
     const std::size_t samples = scene.samples.size(), stride = scene.films.stride();
     const Bundle<float>& rays = polarised.grid.half;
     std::vector<float> main, in_one_plane, own;
@@ -91,25 +105,23 @@ ColorShare color_share(const FlareScene& scene, const GhostPath& path, const Bea
     std::vector<std::vector<double>> shares;
     for (const SpectralSample& s : scene.samples)
         shares.push_back(scene.interpolation(s.wavelength_nm));
-    const auto at_main =
-        static_cast<std::size_t>(std::ranges::find(scene.samples, scene.system().wavelength_nm,
-                                                   &SpectralSample::wavelength_nm) -
-                                 scene.samples.begin());
+    const std::size_t at_main = sample_next_to(scene, scene.system().wavelength_nm);
     result.ratio.assign(rays.size() * samples, 0.0F);
     for (std::size_t g = 0; g < scene.geometry.size(); ++g) {
-        MirrorGrid* grid = g == scene.main ? nullptr : g == 0 ? &result.first : &result.last;
-        if (grid != nullptr) {
-            grid->box = polarised.grid.box;
-            grid->cells = polarised.grid.cells;
-            grid->half.keep_cosines = true;
+        const bool is_main = g == scene.main;
+        MirrorGrid grid;
+        if (!is_main) {
+            grid.box = polarised.grid.box;
+            grid.cells = polarised.grid.cells;
+            grid.half.keep_cosines = true;
             const auto other = trace_path<float>(scene.geometry[g], path);
-            trace_mirrored(other, beam, Weights::none, *grid);
-            scene.films.weights(other, grid->half, own);
+            trace_mirrored(other, beam, Weights::none, grid);
+            scene.films.weights(other, grid.half, own);
+            result.rays += grid.half.size();
         }
         for (std::size_t k = 0; k < rays.size(); ++k) {
             // Where a colour fails the main one stands for it.
-            const bool differs =
-                grid != nullptr && grid->half.margin[k] >= 0.0F && rays.margin[k] >= 0.0F;
+            const bool differs = !is_main && grid.half.margin[k] >= 0.0F && rays.margin[k] >= 0.0F;
             for (std::size_t w = 0; w < samples; ++w) {
                 const float there = main[k * stride + w];
                 const float angles = differs && there > 0.0F ? own[k * stride + w] / there : 1.0F;
@@ -121,9 +133,7 @@ ColorShare color_share(const FlareScene& scene, const GhostPath& path, const Bea
     }
     for (std::size_t k = 0; k < rays.size(); ++k) {
         const float share =
-            at_main < samples
-                ? share_of_polarisation(polarised.ratio[k], in_one_plane[k * stride + at_main])
-                : 0.0F;
+            share_of_polarisation(polarised.ratio[k], in_one_plane[k * stride + at_main]);
         for (std::size_t w = 0; w < samples; ++w) {
             const float turned = 1.0F + share * (in_one_plane[k * stride + w] - 1.0F);
             result.ratio[k * samples + w] *=
@@ -134,8 +144,8 @@ ColorShare color_share(const FlareScene& scene, const GhostPath& path, const Bea
 }
 
 std::vector<float> ghost_weights(const FlareScene& scene, const TracePath<float>& path,
-                                 const MirrorGrid& grid, const PolarisedShare& polarised,
-                                 const std::vector<float>& colors) {
+                                 const MirrorGrid& grid, const WeightShares& shares) {
+    const auto& [polarised, colors] = shares;
     std::vector<float> weights;
     scene.films.weights(path, grid.half, weights);
     if (grid.other.size() > 0) {
@@ -154,14 +164,14 @@ std::vector<float> ghost_weights(const FlareScene& scene, const TracePath<float>
         }
     } else if (!polarised.ratio.empty()) {
         const std::vector<float> ratio =
-            interpolate_smooth(polarised.grid, polarised.ratio, 1, grid.cells);
+            interpolate_smooth(polarised.grid.cells, polarised.ratio, 1, grid.cells);
         for (std::size_t k = 0; k < ratio.size(); ++k)
             for (std::size_t w = 0; w < stride; ++w) weights[k * stride + w] *= ratio[k];
     }
-    if (!colors.empty()) {
+    if (!colors.ratio.empty()) {
         const std::size_t samples = scene.samples.size();
         const std::vector<float> ratio =
-            interpolate_smooth(polarised.grid, colors, static_cast<int>(samples), grid.cells);
+            interpolate_smooth(colors.cells, colors.ratio, static_cast<int>(samples), grid.cells);
         for (std::size_t k = 0; k < rays.size(); ++k)
             for (std::size_t w = 0; w < samples; ++w)
                 weights[k * stride + w] *= std::max(ratio[k * samples + w], 0.0F);
@@ -189,6 +199,31 @@ template std::vector<float> ray_light<gray_channels>(const FlareScene&, const Mi
 template std::vector<float> ray_light<color_channels>(const FlareScene&, const MirrorGrid&,
                                                       const std::vector<float>&,
                                                       const std::vector<float>&);
+
+template <int C>
+std::vector<float> bundle_light(const FlareScene& scene, const TracePath<float>& path,
+                                double traced_nm, const Bundle<float>& rays,
+                                const std::vector<float>& shares) {
+    const std::size_t main = sample_next_to(scene, traced_nm), stride = scene.films.stride();
+    std::vector<float> weights, light(rays.size() * C, 0.0F);
+    scene.films.weights(path, rays, weights);
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+        const float* own = weights.data() + k * stride;
+        const float off_table = own[main] > 0.0F ? std::clamp(rays.weight[k] / own[main],
+                                                              1.0F / most_off_table, most_off_table)
+                                                 : 1.0F;
+        for (std::size_t w = 0; w < scene.samples.size(); ++w)
+            for (std::size_t c = 0; c < C; ++c)
+                light[k * C + c] += shares[w * C + c] * off_table * own[w];
+    }
+    return light;
+}
+template std::vector<float> bundle_light<gray_channels>(const FlareScene&, const TracePath<float>&,
+                                                        double, const Bundle<float>&,
+                                                        const std::vector<float>&);
+template std::vector<float> bundle_light<color_channels>(const FlareScene&, const TracePath<float>&,
+                                                         double, const Bundle<float>&,
+                                                         const std::vector<float>&);
 
 double box_bound_mm2(const FlareScene& scene, const TracePath<float>& path,
                      const MirrorGrid& grid) {

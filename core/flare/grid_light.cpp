@@ -138,17 +138,17 @@ Cubic cubic_at(float x, int first, int last) {
 
 }  // namespace
 
-std::vector<float> interpolate_smooth(const MirrorGrid& from, const std::vector<float>& values,
+std::vector<float> interpolate_smooth(int from_cells, const std::vector<float>& values,
                                       int channels, int cells) {
-    const int across = from.half_side(), side = cells + 1, half = cells / 2 + 1;
-    const float scale = static_cast<float>(from.cells) / static_cast<float>(cells);
+    const int across = from_cells / 2 + 1, side = cells + 1, half = cells / 2 + 1;
+    const float scale = static_cast<float>(from_cells) / static_cast<float>(cells);
     std::vector<Cubic> columns;
     // One mirrored column on the other side of the middle belongs to the same smooth function.
     for (int i = 0; i < half; ++i)
         columns.push_back(cubic_at(static_cast<float>(i) * scale, -1, across - 1));
     std::vector<float> result(idx(side * half * channels), 0.0F), row(idx(across * channels));
     for (int j = 0; j < side; ++j) {
-        const Cubic up = cubic_at(static_cast<float>(j) * scale, 0, from.cells);
+        const Cubic up = cubic_at(static_cast<float>(j) * scale, 0, from_cells);
         std::ranges::fill(row, 0.0F);
         for (int k = 0; k < 4; ++k) {
             const float* line = values.data() + (up.first + k) * across * channels;

@@ -35,9 +35,10 @@ void correct_means(const MirrorGrid& grid, int channels, std::vector<float>& val
 void interpolate(const MirrorGrid& from, const std::vector<float>& values, int channels, int cells,
                  std::vector<float>& nodes);
 
-/// Values of a half grid, `channels` a ray, at the rays of the half grid of cells × cells over the
-/// same box: by cubics through four nodes each way, to fourth order where the values are smooth.
-std::vector<float> interpolate_smooth(const MirrorGrid& from, const std::vector<float>& values,
+/// Values of a half grid of from_cells × from_cells, `channels` a ray, at the rays of the half grid
+/// of cells × cells over the same box: by cubics through four nodes each way, to fourth order where
+/// the values are smooth.
+std::vector<float> interpolate_smooth(int from_cells, const std::vector<float>& values,
                                       int channels, int cells);
 
 }  // namespace ghostlight

@@ -38,12 +38,62 @@ std::vector<Batch> batches_of(const GhostPlanner& planner, const std::vector<Pro
     return batches;
 }
 
+/// A picture that ghosts are added to, and the strongest of them apart where they are asked for.
+template <int C>
+struct Canvas {
+    LevelPictures<C> picture;
+    std::optional<LevelPictures<gray_channels>> highlight;
+    unsigned threads;
+    std::stop_token stop;
+
+    /// Parts of ghosts, of which some are highlighted.
+    bool add(const std::vector<DrawnGhost<C>>& drawn, const std::vector<char>& is_highlighted,
+             FlareTimes& times) {
+        if (!picture.add(drawn, threads, stop, times)) return false;
+        if (!highlight) return true;
+        std::vector<DrawnGhost<gray_channels>> apart(drawn.size());
+        for (std::size_t k = 0; k < drawn.size(); ++k)
+            if (is_highlighted[k]) apart[k] = {last_channel(drawn[k].mesh), drawn[k].level};
+        return highlight->add(apart, threads, stop, times);
+    }
+};
+
+/// One ghost, as many of its bands at once as their cells allow. Returns its flux, or nothing when
+/// stopped.
+template <int C>
+std::optional<double> draw_by_bands(const GhostPlanner& planner, ProbedGhost& ghost,
+                                    bool is_highlighted, Canvas<C>& canvas, FlareImage& image) {
+    auto traced = Clock::now();
+    const GhostGrids grids = planner.lay_grids(ghost);
+    planner.choose_level(grids, ghost);
+    const auto bands = static_cast<std::size_t>(grids.fineness.bands);
+    const std::size_t at_once =
+        std::max<std::size_t>(1, most_cells_at_once * bands / planner.cells_to_draw(ghost));
+    double flux_mm2 = 0.0;
+    for (std::size_t first = 0; first < bands; first += at_once) {
+        std::vector<DrawnGhost<C>> drawn(std::min(at_once, bands - first));
+        if (!parallel_for(drawn.size(), canvas.threads, canvas.stop, [&](std::size_t k) {
+                drawn[k].level = ghost.planned.level;
+                planner.draw_band(ghost, grids, static_cast<int>(first + k), drawn[k].mesh);
+            }))
+            return std::nullopt;
+        image.times.trace_ms += ms_since(traced);
+        if (!canvas.add(drawn, std::vector<char>(drawn.size(), is_highlighted ? 1 : 0),
+                        image.times))
+            return std::nullopt;
+        for (const DrawnGhost<C>& part : drawn) {
+            flux_mm2 += part.mesh.flux_mm2[C - 1];
+            image.cells += part.mesh.cells;
+        }
+        traced = Clock::now();
+    }
+    return flux_mm2;
+}
+
 /// What was needed to draw it.
 void release(ProbedGhost& ghost) {
     ghost.grid = {};
     ghost.weights = {};
-    ghost.colors = {};
-    ghost.polarised = {};
 }
 
 template <int C>
@@ -54,8 +104,7 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
     const PixelFrame frame =
         pixel_frame(system.sensor_width_mm, system.sensor_height_mm, request.width_px);
     FlareImage image = empty_image(system, frame);
-    const std::vector<GhostPath>& ghosts = request.only.empty() ? scene.ghosts : request.only;
-    image.ghosts = ghosts.size();
+    image.ghosts = request.only.empty() ? scene.ghosts.size() : request.only.size();
 
     const GhostPlanner planner(scene, request.light, frame, request.search, request.economies);
     auto found = probe_all(scene, planner, request, stop);
@@ -63,51 +112,63 @@ std::optional<FlareImage> render(const FlareScene& scene, const FlareRequest& re
     std::vector<ProbedGhost>& probed = *found;
     image.times.bounds_ms = ms_since(began);
 
-    LevelPictures<C> picture(frame);
-    std::optional<LevelPictures<gray_channels>> highlight;
-    if (!request.highlighted.empty()) highlight.emplace(frame);
+    Canvas<C> canvas{LevelPictures<C>(frame), std::nullopt, request.threads, stop};
+    if (!request.highlighted.empty()) canvas.highlight.emplace(frame);
+    auto is_highlighted = [&](const ProbedGhost& ghost) {
+        return std::ranges::find(request.highlighted, ghost.planned.path) !=
+               request.highlighted.end();
+    };
     for (const Batch& batch : batches_of(planner, probed)) {
-        const auto traced = Clock::now();
-        std::vector<DrawnGhost<C>> drawn(batch.count);
-        std::vector<DrawnGhost<gray_channels>> highlighted(highlight ? batch.count : 0);
-        const bool finished = parallel_for(batch.count, request.threads, stop, [&](std::size_t k) {
-            ProbedGhost& ghost = probed[batch.first + k];
-            if (ghost.planned.fate != GhostFate::drawn) return;
-            planner.draw(ghost, drawn[k].mesh);
-            drawn[k].level = ghost.planned.level;
-            if (std::ranges::find(request.highlighted, ghost.planned.path) !=
-                request.highlighted.end()) {
-                highlighted[k].mesh = last_channel(drawn[k].mesh);
-                highlighted[k].level = drawn[k].level;
+        std::vector<double> fluxes_mm2(batch.count, 0.0);
+        ProbedGhost* ghosts_at = probed.data() + batch.first;
+        if (batch.count == 1 && planner.cells_to_draw(*ghosts_at) > most_cells_at_once) {
+            const auto flux_mm2 =
+                draw_by_bands(planner, *ghosts_at, is_highlighted(*ghosts_at), canvas, image);
+            if (!flux_mm2) return std::nullopt;
+            fluxes_mm2.front() = *flux_mm2;
+        } else {
+            const auto traced = Clock::now();
+            std::vector<DrawnGhost<C>> drawn(batch.count);
+            std::vector<char> highlighted(batch.count, 0);
+            const bool finished =
+                parallel_for(batch.count, request.threads, stop, [&](std::size_t k) {
+                    ProbedGhost& ghost = ghosts_at[k];
+                    if (ghost.planned.fate != GhostFate::drawn) return;
+                    planner.draw(ghost, drawn[k].mesh);
+                    drawn[k].level = ghost.planned.level;
+                    highlighted[k] = is_highlighted(ghost) ? 1 : 0;
+                });
+            if (!finished) return std::nullopt;
+            image.times.trace_ms += ms_since(traced);
+            if (!canvas.add(drawn, highlighted, image.times)) return std::nullopt;
+            for (std::size_t k = 0; k < batch.count; ++k) {
+                fluxes_mm2[k] = drawn[k].mesh.flux_mm2[C - 1];
+                image.cells += drawn[k].mesh.cells;
             }
-        });
-        if (!finished) return std::nullopt;
-        image.times.trace_ms += ms_since(traced);
-        if (!picture.add(drawn, request.threads, stop, image.times) ||
-            (highlight && !highlight->add(highlighted, request.threads, stop, image.times)))
-            return std::nullopt;
+        }
         for (std::size_t k = 0; k < batch.count; ++k) {
-            const PlannedGhost& planned = probed[batch.first + k].planned;
-            image.flux_mm2 += planned.fate == GhostFate::off_sensor ? planned.whole_flux_mm2
-                                                                    : drawn[k].mesh.flux_mm2[C - 1];
-            image.cells += drawn[k].mesh.cells;
+            const PlannedGhost& planned = ghosts_at[k].planned;
+            image.flux_mm2 +=
+                planned.fate == GhostFate::off_sensor ? planned.whole_flux_mm2 : fluxes_mm2[k];
             image.rays += planned.rays;
             // Fringes need what they are drawn from once more.
-            if (!request.ringing) release(probed[batch.first + k]);
+            if (!request.ringing) release(ghosts_at[k]);
         }
     }
+    FringesLeftOut fringes;
     if (request.ringing) {
         const auto rang = Clock::now();
         const auto rung = ringing_of(scene, request, planner, probed, stop);
-        if (!rung || !draw_ringing(*rung, frame, request.threads, stop, picture))
+        if (!rung || !draw_ringing(*rung, frame, request.threads, stop, canvas.picture))
             return std::nullopt;
-        for (const RungMesh& mesh : *rung) image.ringing.push_back(mesh.report);
+        fringes = take_reports(*rung, image);
         image.times.ringing_ms = ms_since(rang);
     }
-    if (!picture.finish(request.threads, stop, image) ||
-        (highlight && !finish_highlight(*highlight, request.threads, stop, image)))
+    if (!canvas.picture.finish(request.threads, stop, image) ||
+        (canvas.highlight && !finish_highlight(*canvas.highlight, request.threads, stop, image)))
         return std::nullopt;
     image.plan = plan_of(scene, request, probed);
+    image.plan.fringes_left_out = fringes;
     image.times.total_ms = ms_since(began);
     return image;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -22,7 +23,7 @@ struct FirstErrors {
     double contrast_mm2 = 0.0;  ///< per pixel of blur
     double slopes_mm2 = 0.0;    ///< per pixel² of a blur's half variance
     double grid_mm2 = 0.0;      ///< the map's bend
-    double merging_mm2 = 0.0;   ///< all colours in one band
+    ColorMisplacement colors;   ///< all colours in one band
     double weight_mm2 = 0.0;    ///< interpolating the light between the probe's rays
     double singular_mm2 = 0.0;  ///< cells beside failing rays or total reflection
 };
@@ -31,17 +32,38 @@ struct FirstErrors {
 struct ProbedGhost {
     PlannedGhost planned;
     FirstErrors errors;
-    MirrorGrid grid;            ///< the probe, at the main geometry wavelength, with its cosines
-    std::size_t passing = 0;    ///< of its nodes
-    PolarisedShare polarised;   ///< over the box
-    std::vector<float> colors;  ///< ColorShare::ratio
-    /// What a plan nearby knew, where its box still holds.
-    std::optional<PlannedGhost> nearby;
+    MirrorGrid grid;          ///< the probe, at the main geometry wavelength, with its cosines
+    std::size_t passing = 0;  ///< of its nodes
+    /// What a plan nearby knew of its colours, polarisation and rounding; null: nothing that holds.
+    const FirstLook* known = nullptr;
     std::vector<float> weights;  ///< of the probe's half grid, FilmTables::stride() a ray
     /// Single precision moves its rays by more than is_ill_conditioned() allows (path_stability.h):
     /// it is traced in double.
     bool in_double = false;
 };
+
+/// How finely a ghost is drawn, and the error that leaves, its level apart.
+struct Fineness {
+    int cells = 0, bands = 1;
+    bool rough = false;       ///< weights are traced on the grid itself
+    bool polarised = false;   ///< and polarisation with them
+    bool split = false;       ///< singular cells get grids of their own
+    bool own_colors = false;  ///< each band is traced, not interpolated: FlareScene::at_band()
+    double error_mm2 = 0.0;
+    double cells_wanted = 0.0;  ///< even where the probe has more of them
+};
+
+/// What all bands of a ghost are drawn from.
+struct GhostGrids {
+    Fineness fineness;
+    std::vector<MeshNodes> placed;  ///< at the geometry wavelengths, or the main one alone
+    std::vector<int> singular;      ///< cells that get grids of their own
+    MirrorGrid main;                ///< empty: the probe
+    std::vector<float> weights;     ///< of its rays; empty: the probe's
+};
+
+/// Cells across a grid for a singular cell.
+inline constexpr int singular_cells_across = 4;
 
 /// Cells across a probe, and across that of a ghost for which a plan nearby found these enough.
 inline constexpr int probe_cells = 12, few_probe_cells = 8;
@@ -68,6 +90,13 @@ class GhostPlanner {
     /// Chooses grid, level and bands within the ghost's allowance, and makes its mesh.
     template <int C>
     void draw(ProbedGhost& ghost, ColorMesh<C>& mesh) const;
+    /// The same in steps, for ghosts whose mesh is too large to be held at once: what its bands
+    /// share, its level by the first look, and band by band.
+    GhostGrids lay_grids(ProbedGhost& ghost) const;
+    void choose_level(const GhostGrids& grids, ProbedGhost& ghost) const;
+    template <int C>
+    void draw_band(const ProbedGhost& ghost, const GhostGrids& grids, int band,
+                   ColorMesh<C>& mesh) const;
 
     /// All its light with its colours, from the probe.
     GhostSpot spot(const ProbedGhost& ghost) const;
@@ -78,23 +107,13 @@ class GhostPlanner {
 
     /// Rays of its main wavelength, without weights.
     void trace_main(const ProbedGhost& ghost, Bundle<float>& rays) const {
-        trace(ghost, scene_.main, Weights::none, rays);
+        trace(ghost, scene_.system(), Weights::none, rays);
     }
 
     const NodePlacement& placement() const { return placement_; }
     const BeamFrame& beam() const { return beam_; }
 
    private:
-    /// How finely a ghost is drawn, and the error that leaves, its level apart.
-    struct Fineness {
-        int cells = 0, bands = 1;
-        bool rough = false;      ///< weights are traced on the grid itself
-        bool polarised = false;  ///< and polarisation with them
-        bool split = false;      ///< singular cells get grids of their own
-        double error_mm2 = 0.0;
-        double cells_wanted = 0.0;  ///< even where the probe has more of them
-    };
-
     const FlareScene& scene_;
     ProbeSearch search_;
     PlanEconomies economies_;
@@ -106,32 +125,31 @@ class GhostPlanner {
     void choose_level(const Fineness& fineness, double contrast_mm2, double slopes_mm2,
                       PlannedGhost& planned) const;
     MeshNodes at_wavelength(const std::vector<MeshNodes>& placed, double wavelength_nm) const;
-    void trace(const ProbedGhost& ghost, std::size_t node, Weights weights,
+    void trace(const ProbedGhost& ghost, const OpticalSystem& system, Weights weights,
                Bundle<float>& rays) const;
     void mind_rounding(ProbedGhost& ghost) const;
-    void trace_other_half(const ProbedGhost& ghost, std::size_t node, Weights weights,
+    std::shared_ptr<const WeightShares> shares_of(ProbedGhost& ghost,
+                                                  const TracePath<float>& path) const;
+    void trace_other_half(const ProbedGhost& ghost, const OpticalSystem& system, Weights weights,
                           MirrorGrid& grid) const;
-    MirrorGrid traced(const ProbedGhost& ghost, std::size_t node, int cells,
+    MirrorGrid traced(const ProbedGhost& ghost, const OpticalSystem& system, int cells,
                       bool keep_cosines = false, Weights weights = Weights::none) const;
-    void look(const MirrorGrid& first, const MeshNodes& nodes, const ColorShare& colors,
-              ProbedGhost& ghost) const;
-    double shift_of_colors_px(const ProbedGhost& ghost, const ColorShare& colors) const;
-    template <int C>
-    void draw_grids(const std::vector<const MirrorGrid*>& geometry, const MirrorGrid& weight_grid,
-                    const std::vector<float>& weights, int bands, bool split,
-                    const ProbedGhost& ghost, ColorMesh<C>& mesh) const;
+    void look(const MirrorGrid& first, const MeshNodes& nodes, ProbedGhost& ghost) const;
+    ColorMisplacement misplaced_colors(const ProbedGhost& ghost, const MeshNodes& main) const;
     struct SingularRays {
-        Bundle<float> rays;  ///< cell by cell
-        std::vector<float> weights;
+        Bundle<float> rays;        ///< cell by cell
+        std::vector<float> light;  ///< C a ray
     };
+    /// Singular cells of the half with u ≥ 0 of a grid of cells × cells over the ghost's box, on
+    /// grids of their own, with films and polarisation.
     template <int C>
-    SingularRays trace_singular(const MirrorGrid& grid, const std::vector<int>& cells,
-                                const MirrorGrid& weight_grid, const std::vector<float>& light,
-                                const ProbedGhost& ghost) const;
+    SingularRays trace_singular(const ProbedGhost& ghost, int cells,
+                                const std::vector<int>& singular, const OpticalSystem& system,
+                                const std::vector<float>& shares) const;
     template <int C>
-    void draw_singular(const MirrorGrid& grid, const std::vector<int>& cells,
-                       const MirrorGrid& weight_grid, const std::vector<float>& light,
-                       const ProbedGhost& ghost, ColorMesh<C>& mesh) const;
+    void draw_singular(const ProbedGhost& ghost, int cells, const std::vector<int>& singular,
+                       const OpticalSystem& system, const std::vector<float>& shares,
+                       ColorMesh<C>& mesh) const;
 };
 
 /// The last channel of a mesh alone.

@@ -28,6 +28,8 @@ constexpr double left_out_share = 0.1;
 constexpr double strong_share = 0.9;
 /// With a plan nearby, one ghost of so many is searched for in all of the entrance all the same.
 constexpr std::size_t search_anew_every = 8;
+/// And one of so many has its colours and polarisation measured anew, which change slowly.
+constexpr std::size_t weigh_anew_every = 32;
 
 /// A plan for another count of ghosts is of another lens.
 const PlannedGhost* nearby_of(const FlareRequest& request, std::size_t g, const GhostPath& path) {
@@ -62,8 +64,9 @@ void share_among(std::vector<ProbedGhost>& ghosts, double tolerance) {
     double total = 0.0, left_out = 0.0;
     for (const ProbedGhost& ghost : ghosts) {
         const bool drawn = ghost.planned.fate == GhostFate::drawn;
-        shares.push_back({drawn ? ghost.planned.flux_mm2 : 0.0,
-                          ghost.errors.grid_mm2 + ghost.errors.merging_mm2});
+        shares.push_back(
+            {drawn ? ghost.planned.flux_mm2 : 0.0,
+             ghost.errors.grid_mm2 + ghost.errors.colors.error(1) * ghost.planned.flux_mm2});
         total += shares.back().flux_mm2;
         if (ghost.planned.fate == GhostFate::left_out) left_out += ghost.planned.bound_mm2;
     }
@@ -82,11 +85,13 @@ std::optional<std::vector<ProbedGhost>> probe_all(const FlareScene& scene,
     std::vector<ProbedGhost> ghosts(paths.size());
     const bool found = parallel_for(ghosts.size(), request.threads, stop, [&](std::size_t g) {
         const PlannedGhost* nearby = nearby_of(request, g, paths[g]);
-        const bool anew = (g + static_cast<std::size_t>(request.turn)) % search_anew_every == 0;
+        const std::size_t turn = g + static_cast<std::size_t>(request.turn);
+        const bool anew = turn % search_anew_every == 0;
         // Searched for well then: it serves the next pictures, too.
         ghosts[g] = nearby != nullptr && anew
                         ? planner.find(paths[g], nullptr, ProbeSearch::careful)
                         : planner.find(paths[g], nearby);
+        if (nearby != nullptr && turn % weigh_anew_every != 0) ghosts[g].known = &nearby->look;
     });
     if (!found) return std::nullopt;
 

@@ -1,6 +1,7 @@
 // GhostPlanner's first look at a ghost: where it enters, its light, and what a first drawing of it
 // would get wrong. What follows from that is in planned_ghost.cpp.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/flare/ghost_measures.h"
@@ -18,14 +19,17 @@ constexpr std::size_t few_passing = 12;   ///< of a probe's nodes
 constexpr std::size_t compared_rays = 8;  ///< of a probe, with double precision
 /// Cells that a plan nearby wants, for fewer of them to be enough.
 constexpr double few_enough = 6.5;
-/// Of a ghost's allowance, for interpolating polarisation.
-constexpr double polarised_allowed = 0.02;
-constexpr int shift_cells = 6;  ///< of the grids that lateral colour is measured on
 /// Of the light in singular cells: a root drawn as a line is off by as much, over a cell.
 constexpr double singular_factor = 0.3;
-/// Of the shift between the outer geometry wavelengths times the contrast: most of the light lies
-/// well within them, and shifts along a rim do not matter. Calibrated likewise.
-constexpr double merging_factor = 0.02;
+
+/// Of a box's breadth, that its edges may move by, for what is smooth over it to hold.
+constexpr double most_moved = 0.15;
+
+bool are_alike(const PupilBox& a, const PupilBox& b) {
+    const double du = most_moved * (b.u1_mm - b.u0_mm), dv = most_moved * (b.v1_mm - b.v0_mm);
+    return std::abs(a.u0_mm - b.u0_mm) <= du && std::abs(a.u1_mm - b.u1_mm) <= du &&
+           std::abs(a.v0_mm - b.v0_mm) <= dv && std::abs(a.v1_mm - b.v1_mm) <= dv;
+}
 
 }  // namespace
 
@@ -38,32 +42,31 @@ GhostPlanner::GhostPlanner(const FlareScene& scene, const LightDirection& light,
       beam_(beam_frame({light.field_deg, 90.0})),
       entrance_(entrance_box(scene.system(), beam_)) {}
 
-void GhostPlanner::trace(const ProbedGhost& ghost, std::size_t node, Weights weights,
+void GhostPlanner::trace(const ProbedGhost& ghost, const OpticalSystem& system, Weights weights,
                          Bundle<float>& rays) const {
-    const OpticalSystem& system = scene_.geometry[node];
     if (ghost.in_double)
         trace_in_double(system, ghost.planned.path, beam_, weights, rays);
     else
         trace_bundle(trace_path<float>(system, ghost.planned.path), beam_, weights, rays);
 }
 
-MirrorGrid GhostPlanner::traced(const ProbedGhost& ghost, std::size_t node, int cells,
+MirrorGrid GhostPlanner::traced(const ProbedGhost& ghost, const OpticalSystem& system, int cells,
                                 bool keep_cosines, Weights weights) const {
     MirrorGrid grid;
     grid.box = ghost.planned.box;
     grid.cells = cells;
     grid.half.keep_cosines = keep_cosines;
     lay_mirrored(grid);
-    trace(ghost, node, weights, grid.half);
+    trace(ghost, system, weights, grid.half);
     grid.is_polarised = weights == Weights::polarised;
-    if (!economies_.half_beams) trace_other_half(ghost, node, weights, grid);
+    if (!economies_.half_beams) trace_other_half(ghost, system, weights, grid);
     return grid;
 }
 
-void GhostPlanner::trace_other_half(const ProbedGhost& ghost, std::size_t node, Weights weights,
-                                    MirrorGrid& grid) const {
+void GhostPlanner::trace_other_half(const ProbedGhost& ghost, const OpticalSystem& system,
+                                    Weights weights, MirrorGrid& grid) const {
     lay_other_half(grid);
-    trace(ghost, node, weights, grid.other);
+    trace(ghost, system, weights, grid.other);
     take_mean_of_halves(grid);
 }
 
@@ -71,8 +74,8 @@ void GhostPlanner::trace_other_half(const ProbedGhost& ghost, std::size_t node, 
 /// probe is traced anew, and all that follows in double.
 void GhostPlanner::mind_rounding(ProbedGhost& ghost) const {
     const OpticalSystem& system = scene_.system();
-    if (ghost.nearby) {
-        ghost.in_double = ghost.nearby->look.in_double;
+    if (ghost.known != nullptr) {
+        ghost.in_double = ghost.known->in_double;
     } else {
         PathStability seen;
         seen.position_worst_mm = float_displacement_mm(system, ghost.planned.path, beam_,
@@ -81,7 +84,7 @@ void GhostPlanner::mind_rounding(ProbedGhost& ghost) const {
     }
     ghost.planned.look.in_double = ghost.in_double;
     if (!ghost.in_double) return;
-    trace(ghost, scene_.main, Weights::none, ghost.grid.half);
+    trace(ghost, system, Weights::none, ghost.grid.half);
     ghost.planned.rays += ghost.grid.half.size();
 }
 
@@ -106,7 +109,6 @@ ProbedGhost GhostPlanner::find(const GhostPath& path, const PlannedGhost* nearby
                     search, nearby != nullptr ? &nearby->look.box : nullptr);
     planned.rays = probe.rays;
     planned.look.box = probe.passing_box;
-    if (probe.served) result.nearby = *nearby;
     if (probe.empty) {
         planned.fate = GhostFate::nothing_passes;
         return result;
@@ -118,29 +120,37 @@ ProbedGhost GhostPlanner::find(const GhostPath& path, const PlannedGhost* nearby
     return result;
 }
 
+std::shared_ptr<const WeightShares> GhostPlanner::shares_of(ProbedGhost& ghost,
+                                                            const TracePath<float>& path) const {
+    auto shares = std::make_shared<WeightShares>();
+    PolarisedShare& polarised = shares->polarised;
+    polarised = polarised_share(scene_, path, beam_, ghost.planned.box);
+    shares->colors = color_share(scene_, ghost.planned.path, beam_, polarised);
+    ghost.planned.rays += polarised.ratio.size() + shares->colors.rays;
+    // What they came from is most of their memory.
+    polarised.grid.half = {};
+    return shares;
+}
+
 void GhostPlanner::weigh(ProbedGhost& ghost) const {
     PlannedGhost& planned = ghost.planned;
     if (planned.fate != GhostFate::drawn) return;
+    if (ghost.known != nullptr && !are_alike(ghost.known->box, planned.look.box))
+        ghost.known = nullptr;
     const auto trace = trace_path<float>(scene_.system(), planned.path);
     mind_rounding(ghost);
     if (!economies_.half_beams) {
-        trace_other_half(ghost, scene_.main, Weights::none, ghost.grid);
+        trace_other_half(ghost, scene_.system(), Weights::none, ghost.grid);
         planned.rays += ghost.grid.other.size();
     }
-    // What polarisation may be off by without being seen, where that is known.
-    const double allowed =
-        ghost.nearby && ghost.nearby->flux_mm2 > 0.0
-            ? polarised_allowed * ghost.nearby->allowance_mm2 / ghost.nearby->flux_mm2
-            : 0.0;
-    ghost.polarised = polarised_share(scene_, trace, beam_, planned.box, allowed);
-    ColorShare colors = color_share(scene_, planned.path, beam_, ghost.polarised);
-    ghost.weights = ghost_weights(scene_, trace, ghost.grid, ghost.polarised, colors.ratio);
-    planned.rays +=
-        ghost.polarised.ratio.size() + colors.first.half.size() + colors.last.half.size();
+    std::shared_ptr<const WeightShares>& shares = planned.look.shares;
+    if (ghost.known != nullptr) shares = ghost.known->shares;
+    if (!shares || !shares->colors.is_for(scene_)) shares = shares_of(ghost, trace);
+    ghost.weights = ghost_weights(scene_, trace, ghost.grid, *shares);
 
     MirrorGrid closer;
     if (ghost.passing < few_passing) {
-        closer = traced(ghost, scene_.main, close_cells);
+        closer = traced(ghost, scene_.system(), close_cells);
         planned.rays += closer.half.size() + closer.other.size();
     }
     const MirrorGrid& first = closer.cells > 0 ? closer : ghost.grid;
@@ -158,12 +168,10 @@ void GhostPlanner::weigh(ProbedGhost& ghost) const {
     else if (!light.near_frame)
         planned.fate = GhostFate::off_sensor;
     else
-        look(first, nodes, colors, ghost);
-    ghost.colors = std::move(colors.ratio);
+        look(first, nodes, ghost);
     // Its weights are known: what they came from is most of a ghost's memory.
     ghost.grid.half.cosines = {};
     ghost.grid.half.lengths_mm = {};
-    ghost.polarised.grid.half = {};
 }
 
 ProbedGhost GhostPlanner::probe(const GhostPath& path) const {
@@ -172,23 +180,30 @@ ProbedGhost GhostPlanner::probe(const GhostPath& path) const {
     return ghost;
 }
 
-/// How far apart the outer geometry wavelengths land, from few rays where they suffice.
-double GhostPlanner::shift_of_colors_px(const ProbedGhost& ghost, const ColorShare& colors) const {
-    double shift = 0.0;
-    if (colors.first.cells > 0)
-        shift = shift_px(placement_.place(colors.first), placement_.place(colors.last));
-    if (shift > 0.0) return shift;
-    for (const int cells : {shift_cells, probe_cells}) {
-        shift = shift_px(placement_.place(traced(ghost, 0, cells)),
-                         placement_.place(traced(ghost, scene_.geometry.size() - 1, cells)));
-        if (shift > 0.0) break;  // else no node of both passes
-    }
-    return shift;
+/// What one band would get wrong, from grids like the first one at the outer geometry wavelengths.
+ColorMisplacement GhostPlanner::misplaced_colors(const ProbedGhost& ghost,
+                                                 const MeshNodes& main) const {
+    const MeshNodes first = placement_.place(traced(ghost, scene_.geometry.front(), main.cells));
+    const MeshNodes last = placement_.place(traced(ghost, scene_.geometry.back(), main.cells));
+    const PixelFrame& frame = placement_.frame();
+    ColorMisplacement misplaced;
+    misplaced.distance =
+        0.5 * (picture_distance(main, first, frame) + picture_distance(main, last, frame));
+    misplaced.shift_px = shift_px(first, last);
+    std::size_t passing = 0, failing = 0;
+    for (const MeshNodes* outer : {&first, &last})
+        for (std::size_t k = 0; k < main.margin.size(); ++k) {
+            const bool here = is_within(main, k, 0.0), there = is_within(*outer, k, 0.0);
+            if (here || there) ++passing;
+            if ((here && outer->margin[k] < 0.0F) || (there && main.margin[k] < 0.0F)) ++failing;
+        }
+    if (passing > 0)
+        misplaced.failing_share = static_cast<double>(failing) / static_cast<double>(passing);
+    return misplaced;
 }
 
 /// What a plain drawing of the first grid would get wrong.
-void GhostPlanner::look(const MirrorGrid& first, const MeshNodes& nodes, const ColorShare& colors,
-                        ProbedGhost& ghost) const {
+void GhostPlanner::look(const MirrorGrid& first, const MeshNodes& nodes, ProbedGhost& ghost) const {
     const PixelFrame& frame = placement_.frame();
     ColorMesh<gray_channels> mesh;
     add_grid(nodes, frame, mesh);
@@ -204,10 +219,10 @@ void GhostPlanner::look(const MirrorGrid& first, const MeshNodes& nodes, const C
     errors.grid_mm2 =
         contrast * (grid_factor * bend_px(nodes, frame) + rim_factor * rim_px(nodes, frame));
     if (scene_.geometry.size() > 1) {
-        double& shift_px = ghost.planned.look.shift_px;
-        shift_px = ghost.nearby ? ghost.nearby->look.shift_px : 0.0;
-        if (!(shift_px > 0.0)) shift_px = shift_of_colors_px(ghost, colors);
-        errors.merging_mm2 = merging_factor * contrast * shift_px;
+        std::optional<ColorMisplacement>& colors = ghost.planned.look.colors;
+        if (ghost.known != nullptr) colors = ghost.known->colors;
+        if (!colors) colors = misplaced_colors(ghost, nodes);
+        errors.colors = *colors;
     }
     errors.weight_mm2 = ghost.planned.flux_mm2 *
                         roughness(ghost.grid, ray_light<gray_channels>(

@@ -22,41 +22,8 @@ struct RimProfile {
     float steps_per_w = 0.0F;
     std::vector<RimColor> values;  ///< from −shadow to light
 
-    /// ∫ values dw from the first on, so that a pixel's mean is a difference; built with them.
+    /// ∫ values dw from the first on, so that a pixel's mean is a difference.
     std::vector<RimColor> below;
-
-    /// Mean over w − half to w + half: what a pixel has that spans so much.
-    RimColor mean(float w, float half) const {
-        const RimColor high = integral(w + half), low = integral(w - half);
-        RimColor value;
-        for (std::size_t c = 0; c < rim_channels; ++c)
-            value[c] = (high[c] - low[c]) / (2.0F * half);
-        return value;
-    }
-    RimColor integral(float w) const {
-        const float place = (w + shadow) * steps_per_w;
-        if (!(place > 0.0F)) return RimColor{};
-        const auto k = static_cast<std::size_t>(place);
-        RimColor value = below[k + 1 < below.size() ? k : below.size() - 1];
-        const float rest = w - light;
-        for (std::size_t c = 0; c < rim_channels; ++c)
-            value[c] = k + 1 < below.size() ? value[c] + (place - static_cast<float>(k)) *
-                                                             (below[k + 1][c] - value[c])
-                                            : value[c] + rest;
-        return value;
-    }
-    RimColor at(float w) const {
-        const float place = (w + shadow) * steps_per_w;
-        if (!(place > 0.0F)) return RimColor{};
-        const auto k = static_cast<std::size_t>(place);
-        if (k + 1 >= values.size()) return RimColor{1.0F, 1.0F, 1.0F, 1.0F};
-        const float part = place - static_cast<float>(k);
-        const RimColor &low = values[k], &high = values[k + 1];
-        RimColor value;
-        for (std::size_t c = 0; c < rim_channels; ++c)
-            value[c] = low[c] + part * (high[c] - low[c]);
-        return value;
-    }
 };
 
 /// Colour shares of a ghost's light: of each spectral sample in each channel, summing to the
@@ -65,9 +32,32 @@ using ColorShares = std::vector<std::array<double, rim_channels>>;
 /// From a ghost's mean weight at each spectral sample.
 ColorShares color_shares(const FlareScene& scene, const std::vector<double>& spectrum);
 
+/// A straight edge's fringes at every wavelength of a scene, over Fresnel's w of the main one: what
+/// all ghosts of a picture have in common.
+class EdgeFringes {
+   public:
+    explicit EdgeFringes(const FlareScene& scene);
+
+    /// How far fringes are followed into the light, in w.
+    double into_light() const { return into_light_; }
+    /// The profile less 0 in the shadow and 1 in the light, `samples` values a step, from
+    /// −into_shadow on.
+    const std::vector<float>& changes() const { return changes_; }
+    std::size_t samples() const { return samples_; }
+    /// ∫ |the light's own profile − what a sharp rim has| dw, both as pixels have them of which one
+    /// w has so many.
+    double changed_w(double px_per_w) const;
+
+   private:
+    double into_light_;
+    std::size_t samples_;
+    std::vector<float> changes_;
+    std::vector<double> changed_w_;  ///< by the logarithm of the pixels
+};
+
 /// Of a rim of this Fresnel number at the main wavelength, drawn at so many pixels per w, round or
 /// a straight blade. It gives as much light as it takes.
-RimProfile rim_profile(const FlareScene& scene, const ColorShares& shares, double fresnel_number,
+RimProfile rim_profile(const EdgeFringes& edge, const ColorShares& shares, double fresnel_number,
                        double px_per_w, bool round);
 
 }  // namespace ghostlight

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "core/elapsed.h"
 #include "core/flare/draw_rung.h"
@@ -13,8 +14,6 @@ namespace ghostlight {
 namespace {
 
 constexpr int band_rows = 16;
-/// Ghosts with less of the layer's light are left as they are.
-constexpr double least_flux_share = 1e-4;
 /// Those whose fringes change least are left out while what they would change adds up to less than
 /// this share of the picture's tolerance.
 constexpr double left_out_share = 0.5;
@@ -32,16 +31,31 @@ bool is_lopsided(const OpticalSystem& system, const GhostPath& path, const Light
 struct Candidate {
     const ProbedGhost* ghost = nullptr;
     GhostRims rims;
-    double changed_mm2 = 0.0;
+    double changed_mm2 = 0.0, work = 0.0;
     bool chosen = true;
 };
+
+/// Pixels that fringes are drawn in, and what preparing a ghost costs as so many pixels: in
+/// proportion to the time they take, to a factor of two.
+double work_of(const ProbedGhost& ghost, const GhostRims& rims, const PixelFrame& frame) {
+    constexpr double prepared_px = 20'000.0, reach_w = 5.8;
+    const auto [least, most] = ghost.planned.spot.sigmas_mm();
+    // Around an even ellipse of these moments, as far as that lies on the picture.
+    const double around_px =
+        2.0 * std::numbers::pi * std::numbers::sqrt2 * std::hypot(least, most) / frame.pitch_mm;
+    const double length_px =
+        rims.on_frame * std::min(around_px, 2.0 * (frame.width_px + frame.height_px));
+    return prepared_px +
+           length_px * reach_w * rims.px_per_w() * std::ldexp(1.0, -2 * ghost.planned.level);
+}
 
 void leave_out_weakest(std::vector<Candidate>& candidates, double budget_mm2) {
     std::vector<Candidate*> order;
     for (Candidate& candidate : candidates) order.push_back(&candidate);
-    std::ranges::stable_sort(order, {}, [](const Candidate* each) { return each->changed_mm2; });
+    std::ranges::stable_sort(order, {},
+                             [](const Candidate* each) { return each->changed_mm2 / each->work; });
     for (Candidate* weakest : order) {
-        if (weakest->changed_mm2 > budget_mm2) break;
+        if (weakest->changed_mm2 > budget_mm2) continue;
         budget_mm2 -= weakest->changed_mm2;
         weakest->chosen = false;
     }
@@ -54,12 +68,9 @@ bool draw_levels(const std::vector<RungMesh>& rung, const PixelFrame& frame, uns
     struct Task {
         int level, band;
     };
-    std::vector<std::vector<std::vector<std::uint32_t>>> bands(rung.size());
     std::array<bool, picture_levels> has{};
-    for (std::size_t g = 0; g < rung.size(); ++g) {
-        bands[g] = sorted_by_band(rung[g], level_size(frame, rung[g].level), band_rows);
-        has[idx(rung[g].level)] = true;
-    }
+    for (const RungMesh& mesh : rung)
+        if (!mesh.empty()) has[idx(mesh.level)] = true;
     std::vector<Task> tasks;
     std::array<RungCanvas, picture_levels> canvases;
     for (int level = 0; level < picture_levels; ++level) {
@@ -69,14 +80,16 @@ bool draw_levels(const std::vector<RungMesh>& rung, const PixelFrame& frame, uns
         for (int band = 0; band * band_rows < size.height_px; ++band)
             tasks.push_back({level, band});
     }
+    std::vector<RungDrawing> drawings(rung.size());
+    if (!parallel_for(rung.size(), threads, stop, [&](std::size_t g) {
+            if (!rung[g].empty())
+                drawings[g] = RungDrawing(rung[g], canvases[idx(rung[g].level)], band_rows);
+        }))
+        return false;
     return parallel_for(tasks.size(), threads, stop, [&](std::size_t t) {
         const auto [level, band] = tasks[t];
-        const RungCanvas& canvas = canvases[idx(level)];
-        const int first = band * band_rows;
         for (std::size_t g = 0; g < rung.size(); ++g)
-            if (rung[g].level == level)
-                draw_rung(rung[g], bands[g][idx(band)], canvas, first,
-                          std::min(first + band_rows, canvas.size.height_px));
+            if (rung[g].level == level) drawings[g].draw(band);
     });
 }
 
@@ -150,14 +163,15 @@ std::optional<std::vector<RungMesh>> ringing_of(const FlareScene& scene,
     std::vector<Candidate> candidates;
     for (const ProbedGhost& ghost : ghosts)
         if (ghost.planned.fate == GhostFate::drawn && !ghost.weights.empty() &&
-            ghost.planned.flux_mm2 >= least_flux_share * flux_mm2 &&
-            !is_lopsided(system, ghost.planned.path, request.light))
+            ghost.planned.flux_mm2 > 0.0 && !is_lopsided(system, ghost.planned.path, request.light))
             candidates.push_back({.ghost = &ghost, .rims = {}});
     const PixelFrame& frame = planner.placement().frame();
+    const EdgeFringes edge(scene);
     if (!parallel_for(candidates.size(), request.threads, stop, [&](std::size_t k) {
             Candidate& own = candidates[k];
-            own.rims = ghost_rims(system, *own.ghost, request.light.field_deg, frame.pitch_mm);
-            own.changed_mm2 = own.rims.changed_share() * own.ghost->planned.flux_mm2;
+            own.rims = ghost_rims(system, planner.placement(), *own.ghost, request.light.field_deg);
+            own.changed_mm2 = own.rims.changed_share(edge) * own.ghost->planned.whole_flux_mm2;
+            own.work = work_of(*own.ghost, own.rims, frame);
         }))
         return std::nullopt;
     // What is asked for by name gets its fringes.
@@ -166,13 +180,17 @@ std::optional<std::vector<RungMesh>> ringing_of(const FlareScene& scene,
     std::vector<RungMesh> meshes(candidates.size());
     if (!parallel_for(candidates.size(), request.threads, stop,
                       [&](std::size_t k) {
-                          if (candidates[k].chosen && candidates[k].changed_mm2 > 0.0)
-                              meshes[k] = rung_mesh(scene, planner, *candidates[k].ghost,
-                                                    candidates[k].rims, stop);
+                          const Candidate& own = candidates[k];
+                          if (!own.chosen)
+                              meshes[k].left_out_mm2 = own.changed_mm2;
+                          else if (own.changed_mm2 > 0.0)
+                              meshes[k] =
+                                  rung_mesh(scene, planner, edge, *own.ghost, own.rims, stop);
                       }) ||
         stop.stop_requested())
         return std::nullopt;
-    std::erase_if(meshes, [](const RungMesh& mesh) { return mesh.empty(); });
+    std::erase_if(meshes,
+                  [](const RungMesh& mesh) { return mesh.empty() && mesh.left_out_mm2 == 0.0; });
     return meshes;
 }
 
@@ -181,12 +199,24 @@ RungMesh ringing_of(const FlareScene& scene, const FlareRequest& request,
                     std::size_t ghosts, const std::stop_token& stop) {
     const OpticalSystem& system = scene.system();
     if (is_lopsided(system, ghost.planned.path, request.light)) return {};
-    const GhostRims rims =
-        ghost_rims(system, ghost, request.light.field_deg, planner.placement().frame().pitch_mm);
+    const GhostRims rims = ghost_rims(system, planner.placement(), ghost, request.light.field_deg);
+    const EdgeFringes edge(scene);
     const double least_mm2 =
         left_out_share * request.tolerance * layer_flux_mm2 / static_cast<double>(ghosts);
-    if (ghosts > 1 && rims.changed_share() * ghost.planned.flux_mm2 < least_mm2) return {};
-    return rung_mesh(scene, planner, ghost, rims, stop);
+    RungMesh mesh;
+    mesh.left_out_mm2 = rims.changed_share(edge) * ghost.planned.whole_flux_mm2;
+    if (ghosts > 1 && mesh.left_out_mm2 < least_mm2) return mesh;
+    return rung_mesh(scene, planner, edge, ghost, rims, stop);
+}
+
+FringesLeftOut take_reports(const std::vector<RungMesh>& rung, FlareImage& image) {
+    FringesLeftOut left_out;
+    for (const RungMesh& mesh : rung) {
+        if (!mesh.empty()) image.ringing.push_back(mesh.report);
+        if (mesh.left_out_mm2 > 0.0) ++left_out.ghosts;
+        left_out.changed_mm2 += mesh.left_out_mm2;
+    }
+    return left_out;
 }
 
 template <int C>
@@ -213,9 +243,7 @@ bool add_ringing(const FlareScene& scene, const FlareRequest& request, const std
     const bool finished = parallel_for(paths.size(), request.threads, stop, [&](std::size_t g) {
         const PlannedGhost* planned = planned_of(image.plan, g, paths[g]);
         ghosts[g].planned.fate = GhostFate::left_out;
-        if (planned != nullptr && (planned->fate != GhostFate::drawn ||
-                                   planned->flux_mm2 < least_flux_share * image.plan.flux_mm2))
-            return;
+        if (planned != nullptr && planned->fate != GhostFate::drawn) return;
         ghosts[g] = planner.find(paths[g], planned);
         planner.weigh(ghosts[g]);
         if (planned != nullptr) ghosts[g].planned.level = planned->level;
@@ -223,7 +251,7 @@ bool add_ringing(const FlareScene& scene, const FlareRequest& request, const std
     if (!finished) return false;
     const auto rung = ringing_of(scene, request, planner, ghosts, stop);
     if (!rung || !draw_finished(*rung, frame, request.threads, stop, image)) return false;
-    for (const RungMesh& mesh : *rung) image.ringing.push_back(mesh.report);
+    image.plan.fringes_left_out = take_reports(*rung, image);
     image.times.ringing_ms = ms_since(began);
     return true;
 }

@@ -21,8 +21,9 @@ namespace ghostlight {
 ///
 /// Left as they are: rims whose fringes would be finer than a pixel or than what the picture's
 /// size misplaces, or that are too close to their focus (below `least_propagated`); and of a whole
-/// picture's ghosts those whose fringes change least, as long as all that they would change is
-/// less than half of its tolerance. Ghosts in the order of `ghosts`; nothing when stopped.
+/// picture's ghosts those whose fringes change least for the work that they are, as long as all
+/// that they would change is less than half of its tolerance. Ghosts in the order of `ghosts`;
+/// nothing when stopped. Meshes of ghosts that are left out have RungMesh::left_out_mm2 alone.
 std::optional<std::vector<RungMesh>> ringing_of(const FlareScene& scene,
                                                 const FlareRequest& request,
                                                 const GhostPlanner& planner,
@@ -35,6 +36,9 @@ std::optional<std::vector<RungMesh>> ringing_of(const FlareScene& scene,
 RungMesh ringing_of(const FlareScene& scene, const FlareRequest& request,
                     const GhostPlanner& planner, const ProbedGhost& ghost, double layer_flux_mm2,
                     std::size_t ghosts, const std::stop_token& stop);
+
+/// Names those that are drawn in FlareImage::ringing; what is left out in all.
+FringesLeftOut take_reports(const std::vector<RungMesh>& rung, FlareImage& image);
 
 /// Adds that to the levels of a picture that is not finished. False when stopped.
 template <int C>

@@ -10,23 +10,40 @@ namespace ghostlight {
 namespace {
 
 /// Cells across a ghost's beam, its shadow's side included: of those, as many as draw a round rim
-/// by chords that are off by at most so much of w, and no fewer than the ghost itself has.
-constexpr int fewest_cells = 20, most_cells = 40;
+/// by chords that are off by at most so much of w, and no fewer than the ghost itself has. Straight
+/// blades are no rounder than the map.
+constexpr int fewest_cells = 20, fewest_straight_cells = 12, most_cells = 40;
 constexpr double most_chord_w = 0.025;
 /// Below this Fresnel number the rim's curvature shows in the fringes: the mask is propagated.
 constexpr double whole_mask_below = 20.0;
 /// A rim drawn small and brought up bilinearly is a ramp this many of its pixels long.
 constexpr double coarse_rim_px = 2.2;
-/// Pixels per w of a level: colours' fringes are then resolved up to where they run into one
-/// another, one wavelength's a good deal further.
-constexpr double least_px_per_w = 5.0, least_px_per_w_gray = 8.0;
+/// Pixels per w of a level. Blurred by a level's σ = p/2 px, a profile f is off by p²/8 ∫|f''|,
+/// four for white light, a sharp edge by 0.4 p, which the ghost's allowance covers: the profile is
+/// as good from 1.25 of the level's pixels per w on. Twice that, and more for one wavelength's many
+/// fringes.
+constexpr double least_px_per_w = 2.5, least_px_per_w_gray = 5.0;
 
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 
-int cells_for(const PlannedGhost& planned, double fresnel_number, double reach) {
-    const double breadth = std::sqrt(8.0 * most_chord_w / std::sqrt(2.0 * fresnel_number));
-    const int wanted = std::max(static_cast<int>(std::ceil(2.0 * reach / breadth)), planned.cells);
-    return std::clamp((wanted + 1) / 2 * 2, fewest_cells, most_cells);
+/// Of rims whose largest Fresnel number is this, where they are round; 0: none is.
+int cells_for(const PlannedGhost& planned, double round_number, double reach) {
+    int wanted = std::max(planned.cells, fewest_straight_cells);
+    if (round_number > 0.0) {
+        const double breadth = std::sqrt(8.0 * most_chord_w / std::sqrt(2.0 * round_number));
+        wanted =
+            std::max({wanted, fewest_cells, static_cast<int>(std::ceil(2.0 * reach / breadth))});
+    }
+    return std::min((wanted + 1) / 2 * 2, most_cells);
+}
+
+/// The largest Fresnel number of the round rims that show.
+double round_number_of(const GhostRims& rims, const StopMask& stop) {
+    double most = shows(rims.surface) ? rims.surface.fresnel_number : 0.0;
+    if (stop.blades >= 3 && stop.blade_curvature <= 0.0 && stop.picture == nullptr) return most;
+    for (const GhostFringes& rim : rims.crossings)
+        if (shows(rim)) most = std::max(most, rim.fresnel_number);
+    return most;
 }
 
 PupilBox widened(const PupilBox& box, double share, int cells) {
@@ -124,11 +141,12 @@ class Laying {
 
     void lay() {
         const int side = nodes_.cells + 1;
+        find_far();
         const std::vector<float> irradiance = spread();
         for (int j = 0; j < nodes_.cells; ++j)
             for (int i = 0; i < nodes_.cells; ++i) {
                 const std::size_t p = idx(j * side + i), q = p + 1, r = p + idx(side), s = r + 1;
-                if (!is_valid(p)) continue;
+                if ((far_[p] & far_[q] & far_[r] & far_[s]) != 0 || !is_valid(p)) continue;
                 for (const auto& corners : {std::array{p, q, r}, std::array{s, r, q}})
                     add(corners, irradiance);
             }
@@ -142,6 +160,27 @@ class Laying {
     const std::vector<Rim>& rims_;
     float reach_;
     RungMesh& mesh_;
+    /// Of each node, one bit for being out of all fringes' reach in the light, and one for each of
+    /// the first rims in whose dark it lies. A cell whose corners share one is not looked at.
+    std::vector<std::uint64_t> far_;
+
+    void find_far() {
+        far_.assign(light_.size(), mesh_.masks == nullptr ? 1 : 0);
+        for (std::size_t r = 0; r < rims_.size(); ++r) {
+            const RimGroup& group = mesh_.groups[rims_[r].group];
+            if (group.kind == RimKind::masked) continue;
+            const std::uint64_t bit = r < 63 ? std::uint64_t{2} << r : 0;
+            const float scale = rims_[r].w_per_clearance;
+            const bool fringed = group.kind == RimKind::fringed;
+            const float dark = fringed ? -group.profile.shadow : 0.0F;
+            const float light = fringed ? group.profile.light : -1e30F;
+            for (std::size_t k = 0; k < far_.size(); ++k) {
+                const float w = scale * (*rims_[r].clearance)[k];
+                if (w < dark) far_[k] |= bit;
+                if (w < light) far_[k] &= ~std::uint64_t{1};
+            }
+        }
+    }
 
     /// All four corners of a cell, by the first of them.
     bool is_valid(std::size_t p) const {
@@ -249,8 +288,8 @@ bool propagate(const FlareScene& scene, const ColorShares& shares, double fresne
 
 }  // namespace
 
-RungMesh rung_mesh(const FlareScene& scene, const GhostPlanner& planner, const ProbedGhost& ghost,
-                   const GhostRims& rims, const std::stop_token& stop) {
+RungMesh rung_mesh(const FlareScene& scene, const GhostPlanner& planner, const EdgeFringes& edge,
+                   const ProbedGhost& ghost, const GhostRims& rims, const std::stop_token& stop) {
     RungMesh mesh;
     const double least_number = rims.least_fresnel_number();
     if (!(least_number > 0.0) || stop.stop_requested()) return mesh;
@@ -278,7 +317,8 @@ RungMesh rung_mesh(const FlareScene& scene, const GhostPlanner& planner, const P
     const double reach = propagates
                              ? 1.0 + std::min(1.0, 4.0 / std::sqrt(2.0 * last.fresnel_number))
                              : 1.0 + std::min(1.0, into_shadow / std::sqrt(2.0 * least_number));
-    const int cells = propagates ? most_cells : cells_for(ghost.planned, least_number, reach);
+    const int cells =
+        propagates ? most_cells : cells_for(ghost.planned, round_number_of(rims, stop_mask), reach);
     MirrorGrid grid{widened(ghost.planned.box, reach - 1.0, cells), cells, {}};
     lay_mirrored(grid);
     planner.trace_main(ghost, grid.half);
@@ -299,7 +339,7 @@ RungMesh rung_mesh(const FlareScene& scene, const GhostPlanner& planner, const P
             {masked    ? RimKind::masked
              : fringed ? RimKind::fringed
                        : RimKind::sharp,
-             fringed ? rim_profile(scene, shares, fringes.fresnel_number, fringes.px_per_w(), round)
+             fringed ? rim_profile(edge, shares, fringes.fresnel_number, fringes.px_per_w(), round)
                      : RimProfile{}});
         const double scale = fringed ? std::sqrt(2.0 * fringes.fresnel_number) : 1.0;
         for (std::size_t c = first; c < first + count; ++c)

@@ -52,12 +52,15 @@ struct RungMesh {
     int level = 0;          ///< fringes are drawn at
     double rim_px = 1.0;    ///< how softly the picture has its rim, full-size pixels
 
+    /// Left out: the L1 that its fringes would change, mm² over E0.
+    double left_out_mm2 = 0.0;
+
     bool empty() const { return triangles.empty(); }
 };
 
 /// Of a ghost that has been planned, drawn at `planned.level`. Empty where no fringes show or that
 /// is stopped.
-RungMesh rung_mesh(const FlareScene& scene, const GhostPlanner& planner, const ProbedGhost& ghost,
-                   const GhostRims& rims, const std::stop_token& stop);
+RungMesh rung_mesh(const FlareScene& scene, const GhostPlanner& planner, const EdgeFringes& edge,
+                   const ProbedGhost& ghost, const GhostRims& rims, const std::stop_token& stop);
 
 }  // namespace ghostlight

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/flare/draw_rung.h"
 #include "core/flare/picture_levels.h"
@@ -84,9 +83,7 @@ void add_rung(RungMesh rung, const RasterSize& whole, double dx_px, double dy_px
     canvas.bottom_px = spot.bottom - dy_px * whole.scale;
     canvas.size.width_px = spot.width;
     canvas.size.height_px = spot.height;
-    std::vector<std::uint32_t> all(rung.triangles.size());
-    std::iota(all.begin(), all.end(), std::uint32_t{0});
-    draw_rung(rung, all, canvas, 0, spot.height);
+    RungDrawing(rung, canvas, std::max(spot.height, 1)).draw(0);
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
 #include "core/flare/veil_picture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
 #include "core/flare/picture_levels.h"
+#include "core/flare/veil_kernel.h"
 #include "core/parallel.h"
 
 namespace ghostlight {
@@ -28,9 +30,9 @@ Between between(int fine, const RasterSize& coarse) {
     return {static_cast<std::size_t>(low), static_cast<float>(at - low)};
 }
 
-/// A row of a coarse grid as a row of the picture.
-void draw_row(const std::vector<float>& mixed, const std::vector<Between>& columns, float* rgb,
-              float* irradiance) {
+/// A row of a coarse grid as a row of the picture, for any size of the coarse one.
+void draw_any_row(const std::vector<float>& mixed, const std::vector<Between>& columns, float* rgb,
+                  float* irradiance) {
     // All pixels but the last are written four floats wide: the next one overwrites the fourth.
     const std::size_t last = columns.size() - 1;
     for (std::size_t i = 0; i <= last; ++i) {
@@ -43,6 +45,57 @@ void draw_row(const std::vector<float>& mixed, const std::vector<Between>& colum
     }
 }
 
+/// The same of a grid at 1/8 of the size or less, in blocks of eight pixels.
+class BlockRows {
+   public:
+    static constexpr int block_px = 8;
+    BlockRows(int width_px, int level)
+        : width_px_(width_px),
+          step_px_(1 << level),
+          // The first point's pixels begin half a step beside the picture.
+          first_px_(-step_px_ / 2),
+          first_whole_(idx((step_px_ / 2 + block_px - 1) / block_px)) {}
+
+    void draw(const std::vector<float>& mixed, float* rgb, float* irradiance) const {
+        const int begin_px = first_px_ + block_px * static_cast<int>(first_whole_);
+        const std::size_t whole = idx((width_px_ - begin_px) / block_px);
+        spread(mixed, first_whole_, whole, rgb + 3 * begin_px, irradiance + begin_px);
+        const int end_px = begin_px + block_px * static_cast<int>(whole);
+        if (begin_px > 0) draw_part(mixed, first_whole_ - 1, begin_px - block_px, rgb, irradiance);
+        if (end_px < width_px_) draw_part(mixed, first_whole_ + whole, end_px, rgb, irradiance);
+    }
+
+   private:
+    int width_px_, step_px_, first_px_;
+    std::size_t first_whole_;  ///< block on the picture
+
+    void spread(const std::vector<float>& mixed, std::size_t first, std::size_t blocks, float* rgb,
+                float* irradiance) const {
+        const std::size_t per_point = idx(step_px_ / block_px);
+        const float step = 1.0F / static_cast<float>(step_px_);
+        const VeilSpreadView view{mixed.data() + 4 * (first / per_point),
+                                  blocks,
+                                  static_cast<int>(per_point),
+                                  static_cast<int>(first % per_point),
+                                  0.5F * step,
+                                  step,
+                                  rgb,
+                                  irradiance};
+        GHOSTLIGHT_DISPATCH(veil_spread, view);
+    }
+    /// A block that begins at `first_px`, as far as it lies on the picture.
+    void draw_part(const std::vector<float>& mixed, std::size_t block, int first_px, float* rgb,
+                   float* irradiance) const {
+        std::array<float, 3 * block_px> colors;
+        std::array<float, block_px> light;
+        spread(mixed, block, 1, colors.data(), light.data());
+        for (int k = std::max(0, -first_px); k < std::min(block_px, width_px_ - first_px); ++k) {
+            std::copy_n(&colors[idx(3 * k)], 3, rgb + 3 * (first_px + k));
+            irradiance[first_px + k] = light[idx(k)];
+        }
+    }
+};
+
 }  // namespace
 
 int veil_level(double narrowest_mm, const PixelFrame& frame) {
@@ -53,7 +106,8 @@ int veil_level(double narrowest_mm, const PixelFrame& frame) {
 
 void draw_veil(const VeilSeries& series, double narrowest_mm, const PixelFrame& frame,
                unsigned threads, FlareImage& image) {
-    const RasterSize coarse = level_size(frame, veil_level(narrowest_mm, frame));
+    const int level = veil_level(narrowest_mm, frame);
+    const RasterSize coarse = level_size(frame, level);
     const double pitch_mm = frame.pitch_mm / coarse.scale;
     // One point more at the far ends, so that level 0, which has no margin, has a neighbour too.
     std::vector<double> x_mm, y_mm;
@@ -64,6 +118,9 @@ void draw_veil(const VeilSeries& series, double narrowest_mm, const PixelFrame& 
     const std::vector<float> values = series.grid(x_mm, y_mm, threads);
     std::vector<Between> columns;
     for (int i = 0; i < frame.width_px; ++i) columns.push_back(between(i, coarse));
+    const BlockRows block_rows(frame.width_px, level);
+    const bool in_blocks =
+        coarse.scale * BlockRows::block_px <= 1.0 && frame.width_px >= 4 * BlockRows::block_px;
     const std::size_t stride = x_mm.size() * 4, width = idx(frame.width_px);
     const std::size_t height = idx(frame.height_px);
     parallel_for((height + rows_together - 1) / rows_together, threads, {}, [&](std::size_t block) {
@@ -74,7 +131,11 @@ void draw_veil(const VeilSeries& series, double narrowest_mm, const PixelFrame& 
             const float* below = values.data() + rows.low * stride;
             for (std::size_t i = 0; i < stride; ++i)
                 mixed[i] = below[i] + rows.share * (below[stride + i] - below[i]);
-            draw_row(mixed, columns, &image.rgb[3 * j * width], &image.irradiance[j * width]);
+            float *rgb = &image.rgb[3 * j * width], *irradiance = &image.irradiance[j * width];
+            if (in_blocks)
+                block_rows.draw(mixed, rgb, irradiance);
+            else
+                draw_any_row(mixed, columns, rgb, irradiance);
         }
     });
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/flare/veil_kernel.h"
 #include "core/parallel.h"
 
 namespace ghostlight {
@@ -109,47 +110,44 @@ std::array<double, 4> VeilSeries::at(double x_mm, double y_mm) const {
 std::vector<float> VeilSeries::grid(std::span<const double> x_mm, std::span<const double> y_mm,
                                     unsigned threads) const {
     const double omega = 2.0 * std::numbers::pi / period_mm_;
-    const std::size_t count = idx(orders_ + 1);
-    // Waves of every column: cos and sin of each order.
-    std::vector<float> waves(x_mm.size() * count * 2);
+    const std::size_t orders = idx(orders_ + 1);
+    const std::size_t columns = (x_mm.size() + veil_padding - 1) / veil_padding * veil_padding;
+    // Waves of every column, order by order.
+    std::vector<float> cosines(orders * columns, 0.0F), sines(orders * columns, 0.0F);
     for (std::size_t i = 0; i < x_mm.size(); ++i) {
         const Waves own(omega * x_mm[i], orders_);
-        for (std::size_t n = 0; n < count; ++n) {
-            waves[(i * count + n) * 2] = static_cast<float>(own.cosine[n]);
-            waves[(i * count + n) * 2 + 1] = static_cast<float>(own.sine[n]);
+        for (std::size_t n = 0; n < orders; ++n) {
+            cosines[n * columns + i] = static_cast<float>(own.cosine[n]);
+            sines[n * columns + i] = static_cast<float>(own.sine[n]);
         }
     }
-    const std::vector<float> coefficients(coefficients_.begin(), coefficients_.end());
+    std::vector<float> coefficients(coefficients_.size());
+    for (std::size_t k = 0; k < coefficients.size(); k += 16)
+        for (std::size_t c = 0; c < 4; ++c) {
+            coefficients[k + c] = static_cast<float>(coefficients_[k + c]);
+            coefficients[k + 4 + c] = static_cast<float>(coefficients_[k + 8 + c]);
+            coefficients[k + 8 + c] = static_cast<float>(coefficients_[k + 4 + c]);
+            coefficients[k + 12 + c] = static_cast<float>(coefficients_[k + 12 + c]);
+        }
     std::vector<float> values(x_mm.size() * y_mm.size() * 4);
     const std::size_t blocks = (y_mm.size() + rows_together - 1) / rows_together;
     parallel_for(blocks, threads, {}, [&](std::size_t block) {
-        std::vector<float> row(count * 8);
+        std::vector<float> cosine(orders), sine(orders), sums(orders * 8), row(columns * 4);
         for (std::size_t j = block * rows_together;
              j < std::min(y_mm.size(), (block + 1) * rows_together); ++j) {
             // First over the orders in y, once a row; then over those in x.
             const Waves own(omega * y_mm[j], orders_);
-            const float* from = coefficients.data();
-            for (std::size_t n = 0; n < count; ++n) {
-                float sum[8] = {};
-                for (std::size_t m = 0; m < count; ++m, from += 16) {
-                    const auto cy = static_cast<float>(own.cosine[m]);
-                    const auto sy = static_cast<float>(own.sine[m]);
-                    for (std::size_t c = 0; c < 4; ++c) {
-                        sum[c] += from[c] * cy + from[4 + c] * sy;
-                        sum[4 + c] += from[8 + c] * cy + from[12 + c] * sy;
-                    }
-                }
-                std::copy(sum, sum + 8, &row[n * 8]);
-            }
-            for (std::size_t i = 0; i < x_mm.size(); ++i) {
-                float sum[4] = {};
-                const float* wave = &waves[i * count * 2];
-                for (std::size_t n = 0; n < count; ++n)
-                    for (std::size_t c = 0; c < 4; ++c)
-                        sum[c] +=
-                            row[n * 8 + c] * wave[2 * n] + row[n * 8 + 4 + c] * wave[2 * n + 1];
-                std::copy(sum, sum + 4, &values[(j * x_mm.size() + i) * 4]);
-            }
+            std::ranges::transform(own.cosine, cosine.begin(),
+                                   [](double value) { return static_cast<float>(value); });
+            std::ranges::transform(own.sine, sine.begin(),
+                                   [](double value) { return static_cast<float>(value); });
+            const VeilOrdersView in_y{coefficients.data(), cosine.data(), sine.data(), orders,
+                                      sums.data()};
+            GHOSTLIGHT_DISPATCH(veil_orders, in_y);
+            const VeilRowView in_x{sums.data(), cosines.data(), sines.data(),
+                                   orders,      columns,        row.data()};
+            GHOSTLIGHT_DISPATCH(veil_row, in_x);
+            std::copy_n(row.begin(), 4 * x_mm.size(), &values[j * x_mm.size() * 4]);
         }
     });
     return values;

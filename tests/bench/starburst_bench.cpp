@@ -1,13 +1,14 @@
 // The stop's diffraction: an edit of the stop until its starburst is drawn, a frame while only the
 // light moves, and what ringing adds to a planned flare.
 //
-//   starburst_bench           all; median wall and CPU times, ms
+//   starburst_bench [edit|move|ringing]     all or one of them; median wall and CPU times, ms
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <functional>
+#include <string_view>
 #include <vector>
 
 #include "core/elapsed.h"
@@ -126,12 +127,13 @@ void bench_ringing() {
 }  // namespace
 }  // namespace ghostlight::bench
 
-int main() {
+int main(int argc, char** argv) {
     using namespace ghostlight;
+    const std::string_view only = argc > 1 ? argv[1] : "";
     fmt::print("{} threads; medians of {}, ms\n", default_thread_count(), bench::repetitions);
     fmt::print("{:<64}{:>9}{:>9}\n", "", "wall", "CPU");
-    bench::bench_edit();
-    bench::bench_move();
-    bench::bench_ringing();
+    if (only.empty() || only == "edit") bench::bench_edit();
+    if (only.empty() || only == "move") bench::bench_move();
+    if (only.empty() || only == "ringing") bench::bench_ringing();
     return 0;
 }

@@ -25,7 +25,7 @@ TEST(GhostWeights, SmoothInterpolationIsExactForCubics) {
             values.push_back(static_cast<float>(f(i / 3.0, j / 3.0 - 1.0)));
     constexpr double rounding = 2e-6;
     for (const int cells : {6, 12, 20}) {
-        const std::vector<float> fine = interpolate_smooth(grid, values, 1, cells);
+        const std::vector<float> fine = interpolate_smooth(grid.cells, values, 1, cells);
         ASSERT_EQ(fine.size(), static_cast<std::size_t>((cells + 1) * (cells / 2 + 1)));
         std::size_t k = 0;
         for (int j = 0; j <= cells; ++j)
@@ -59,7 +59,7 @@ TEST(GhostWeights, AreThoseOfPolarisedRays) {
         for (const auto& onset : grid.half.onset) is_plain = is_plain && all_above(onset, 0.3F);
         if (!is_plain) continue;
         const std::vector<float> weights =
-            ghost_weights(scene, trace, grid, polarised_share(scene, trace, beam, grid.box), {});
+            ghost_weights(scene, trace, grid, {polarised_share(scene, trace, beam, grid.box), {}});
         const float most = *std::ranges::max_element(exact);
         for (std::size_t k = 0; k < exact.size(); ++k)
             EXPECT_NEAR(static_cast<double>(weights[k * scene.films.stride()] / most),
