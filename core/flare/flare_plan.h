@@ -35,11 +35,19 @@ struct GhostSpot {
     std::array<double, 2> sigmas_mm() const;
 };
 
+/// What other colours than the main one need of the entrance beside a ghost's box, in shares of its
+/// breadth.
+struct ColorRoom {
+    double u = 0.0, v_below = 0.0, v_above = 0.0;  ///< u on both sides
+    bool is_none() const { return u == 0.0 && v_below == 0.0 && v_above == 0.0; }
+};
+
 /// What the first look at a ghost spares a picture for a light close by.
 struct FirstLook {
     PupilBox box;               ///< of the nodes that pass, with a cell to spare
     double cells_wanted = 0.0;  ///< across the box, by the first look's errors; 0: not known
     std::optional<ColorMisplacement> colors;  ///< of a spectrum; empty: not known
+    ColorRoom room;
     /// What its weights have beyond the films' tables; null: not known.
     std::shared_ptr<const WeightShares> shares;
     bool in_double = false;  ///< single precision moves its rays by what shows

@@ -11,6 +11,8 @@ namespace ghostlight {
 namespace {
 
 constexpr int split_cells = singular_cells_across;
+/// So many bands are narrow enough for polarisation at their middles to stand for all of each.
+constexpr int bands_of_one_polarisation = 8;
 
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 
@@ -78,8 +80,8 @@ GhostPlanner::SingularRays GhostPlanner::trace_singular(const ProbedGhost& ghost
             }
     rays.keep_cosines = true;
     trace(ghost, system, Weights::polarised, rays);
-    result.light = bundle_light<C>(scene_, trace_path<float>(system, ghost.planned.path),
-                                   system.wavelength_nm, rays, shares);
+    result.light =
+        bundle_light<C>(scene_, trace_path<float>(system, ghost.planned.path), rays, shares);
     return result;
 }
 template GhostPlanner::SingularRays GhostPlanner::trace_singular<gray_channels>(
@@ -162,8 +164,18 @@ void GhostPlanner::draw_band(const ProbedGhost& ghost, const GhostGrids& grids, 
     MeshNodes nodes;
     if (own_colors) {
         const OpticalSystem& system = scene_.at_band(band, bands);
-        const MirrorGrid grid = traced(ghost, system, cells);
+        // Beside total reflection the main colour's weights are not this one's.
+        const bool own_weights = rough && bands >= bands_of_one_polarisation;
+        const MirrorGrid grid = traced(ghost, system, cells, own_weights,
+                                       own_weights ? Weights::polarised : Weights::none);
         nodes = placement_.place(grid);
+        if (own_weights) {
+            std::vector<float> own = bundle_light<C>(
+                scene_, trace_path<float>(system, ghost.planned.path), grid.half, shares);
+            fill_failed(grid, C, own);
+            correct_means(grid, C, own);
+            interpolate(grid, own, C, cells, nodes.weights);
+        }
         if (split) {
             const std::vector<int> singular = singular_cells(grid, nodes);
             skip(singular, nodes);
@@ -173,12 +185,9 @@ void GhostPlanner::draw_band(const ProbedGhost& ghost, const GhostGrids& grids, 
         nodes = at_wavelength(grids.placed,
                               ColorAxis(scene_.samples).wavelength_nm((band + 0.5) / bands));
         skip(grids.singular, nodes);
-        // Once, with all colours.
-        if (band == 0)
-            draw_singular(ghost, cells, grids.singular, scene_.system(),
-                          channel_shares<C>(scene_, 0, 1), mesh);
+        draw_singular(ghost, cells, grids.singular, scene_.system(), shares, mesh);
     }
-    interpolate(weight_grid, light, C, nodes.cells, nodes.weights);
+    if (nodes.weights.empty()) interpolate(weight_grid, light, C, nodes.cells, nodes.weights);
     add_grid(nodes, placement_.frame(), mesh);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include "core/flare/raster.h"
 #include "core/ghosts/cells.h"
@@ -13,9 +14,10 @@ namespace ghostlight {
 namespace {
 
 constexpr int coarsest_cells = 24, fewest_directions = 12, fewest_wavelengths = 8;
-constexpr int tile_cells = 64;         ///< across: bounds the memory whatever the level
-constexpr int split_cells = 6;         ///< across a cell beside failing rays or total reflection
-constexpr double color_margin = 0.04;  ///< of a pupil's breadth, which one wavelength finds for all
+constexpr int tile_cells = 64;  ///< across: bounds the memory whatever the level
+constexpr int split_cells = 6;  ///< across a cell beside failing rays or total reflection
+/// Of a pupil's breadth, beside where the outer and the middle wavelengths find it.
+constexpr double color_margin = 0.04;
 
 double fraction(double x) { return x - std::floor(x); }
 
@@ -100,14 +102,29 @@ PupilBox widened(const PupilBox& box, double share) {
     return {box.u0_mm - du, box.u1_mm + du, box.v0_mm - dv, box.v1_mm + dv};
 }
 
-/// Whether any of the pupil's cells, widened as its box was, reaches into a tile.
-bool may_hold_light(const Pupil& pupil, const PupilBox& tile, double margin_u, double margin_v) {
-    const double du = (pupil.entrance.u1_mm - pupil.entrance.u0_mm) / pupil.across;
-    const double dv = (pupil.entrance.v1_mm - pupil.entrance.v0_mm) / pupil.across;
-    return std::ranges::any_of(pupil.cells, [&](const PupilCell& cell) {
-        const double u = pupil.entrance.u0_mm + du * cell.i, v = pupil.entrance.v0_mm + dv * cell.j;
-        return u - margin_u <= tile.u1_mm && u + du + margin_u >= tile.u0_mm &&
-               v - margin_v <= tile.v1_mm && v + dv + margin_v >= tile.v0_mm;
+/// Around all of them that are not empty.
+PupilBox hull(std::span<const Pupil> pupils) {
+    PupilBox box{1e300, -1e300, 1e300, -1e300};
+    for (const Pupil& pupil : pupils) {
+        if (pupil.empty()) continue;
+        box = {std::min(box.u0_mm, pupil.box.u0_mm), std::max(box.u1_mm, pupil.box.u1_mm),
+               std::min(box.v0_mm, pupil.box.v0_mm), std::max(box.v1_mm, pupil.box.v1_mm)};
+    }
+    return box;
+}
+
+/// Whether any of the pupils' cells, widened as their box was, reaches into a tile.
+bool may_hold_light(std::span<const Pupil> pupils, const PupilBox& tile, double margin_u,
+                    double margin_v) {
+    return std::ranges::any_of(pupils, [&](const Pupil& pupil) {
+        const double du = (pupil.entrance.u1_mm - pupil.entrance.u0_mm) / pupil.across;
+        const double dv = (pupil.entrance.v1_mm - pupil.entrance.v0_mm) / pupil.across;
+        return std::ranges::any_of(pupil.cells, [&](const PupilCell& cell) {
+            const double u = pupil.entrance.u0_mm + du * cell.i;
+            const double v = pupil.entrance.v0_mm + dv * cell.j;
+            return u - margin_u <= tile.u1_mm && u + du + margin_u >= tile.u0_mm &&
+                   v - margin_v <= tile.v1_mm && v + dv + margin_v >= tile.v0_mm;
+        });
     });
 }
 
@@ -139,19 +156,23 @@ class Sampler {
         const bool many = spectrum.systems.size() > 1;
         std::vector<BeamFrame> frames;
         for (const LightDirection& direction : directions) frames.push_back(beam_frame(direction));
-        if (pupils.empty()) {
-            const OpticalSystem& middle = spectrum.systems[spectrum.systems.size() / 2];
-            for (const BeamFrame& frame : frames) {
-                pupils.push_back(find_pupil(middle, trace_path<double>(middle, path_), frame));
-                ghost.rays += pupils.back().rays;
-            }
-        }
+        const std::vector<std::size_t> searched = searched_systems(spectrum);
+        if (pupils.empty())
+            for (const BeamFrame& frame : frames)
+                for (const std::size_t s : searched) {
+                    const OpticalSystem& system = spectrum.systems[s];
+                    pupils.push_back(find_pupil(system, trace_path<double>(system, path_), frame));
+                    ghost.rays += pupils.back().rays;
+                }
         for (std::size_t s = 0; s < spectrum.systems.size(); ++s) {
             const double share = spectrum.samples[s].weight / static_cast<double>(frames.size());
             const auto path = trace_path<T>(spectrum.systems[s], path_);
-            for (std::size_t d = 0; d < frames.size(); ++d)
-                if (!pupils[d].empty())
-                    draw_beam(spectrum.systems[s], path, frames[d], pupils[d], many, share, ghost);
+            for (std::size_t d = 0; d < frames.size(); ++d) {
+                const std::span<const Pupil> found(pupils.data() + d * searched.size(),
+                                                   searched.size());
+                if (!std::ranges::all_of(found, &Pupil::empty))
+                    draw_beam(spectrum.systems[s], path, frames[d], found, many, share, ghost);
+            }
             put(spectrum, s, ghost);
         }
         ghost.on_sensor_mm2 *= scene_.pixels.pixel_area_mm2();
@@ -159,17 +180,26 @@ class Sampler {
     }
 
    private:
+    /// Where colours fail apart, each enters by another part of the entrance.
+    static std::vector<std::size_t> searched_systems(const SampledSpectrum& spectrum) {
+        const std::size_t count = spectrum.systems.size();
+        if (count == 1) return {0};
+        return {0, count / 2, count - 1};
+    }
+
     const SamplingScene& scene_;
     const SamplingLevel& level_;
     const GhostPath& path_;
     LazyRaster raster_;
 
     void draw_beam(const OpticalSystem& system, const TracePath<T>& path, const BeamFrame& frame,
-                   const Pupil& pupil, bool many_wavelengths, double share, SampledGhost& ghost) {
+                   std::span<const Pupil> pupils, bool many_wavelengths, double share,
+                   SampledGhost& ghost) {
         const double margin = many_wavelengths ? color_margin : 0.0;
-        const PupilBox box = shifted(widened(pupil.box, margin), level_);
-        const double margin_u = margin * (pupil.box.u1_mm - pupil.box.u0_mm);
-        const double margin_v = margin * (pupil.box.v1_mm - pupil.box.v0_mm);
+        const PupilBox around = hull(pupils);
+        const PupilBox box = shifted(widened(around, margin), level_);
+        const double margin_u = margin * (around.u1_mm - around.u0_mm);
+        const double margin_v = margin * (around.v1_mm - around.v0_mm);
         const int tiles = (level_.cells + tile_cells - 1) / tile_cells;
         // Tiles of equal size, so that their seams fall elsewhere on every level.
         const int across = (level_.cells + tiles - 1) / tiles;
@@ -182,7 +212,7 @@ class Sampler {
                                     std::lerp(box.u0_mm, box.u1_mm, (i + 1) * u_share),
                                     std::lerp(box.v0_mm, box.v1_mm, j * u_share),
                                     std::lerp(box.v0_mm, box.v1_mm, (j + 1) * u_share)};
-                if (!may_hold_light(pupil, tile, margin_u, margin_v)) continue;
+                if (!may_hold_light(pupils, tile, margin_u, margin_v)) continue;
                 auto grid = trace_grid(system, path, frame, tile, across, split_cells, weights);
                 if (scene_.weights == WeightModel::reflections_only) {
                     keep_reflections_only(grid.base.field);

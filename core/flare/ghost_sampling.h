@@ -82,8 +82,9 @@ struct SampledGhost {
 
 /// Draws one ghost: a grid of rays in tiles over where it enters, each wavelength and direction by
 /// itself, pieces accumulated with exact pixel coverage. No symmetry, no interpolation of weights.
-/// `pupils` are where it enters, for each direction: found where they are empty, else taken from
-/// another level of the same ghost (a disc's levels have directions of their own).
+/// `pupils` are where it enters, for each direction and in it for the outer and the middle
+/// wavelength: found where they are empty, else taken from another level of the same ghost (a
+/// disc's levels have directions of their own).
 SampledGhost sample_ghost(const SamplingScene& scene, const SampledSpectrum& spectrum,
                           const SamplingLevel& level, const GhostPath& path,
                           std::vector<Pupil>& pupils);

@@ -36,12 +36,11 @@ std::vector<char> beside_light(const MirrorGrid& grid) {
     return lit;
 }
 
-std::size_t sample_next_to(const FlareScene& scene, double wavelength_nm) {
-    return static_cast<std::size_t>(
-        std::ranges::min_element(
-            scene.samples, {},
-            [&](const SpectralSample& s) { return std::abs(s.wavelength_nm - wavelength_nm); }) -
-        scene.samples.begin());
+/// The sample whose wavelength the main geometry has.
+std::size_t main_sample(const FlareScene& scene) {
+    return static_cast<std::size_t>(std::ranges::find(scene.samples, scene.system().wavelength_nm,
+                                                      &SpectralSample::wavelength_nm) -
+                                    scene.samples.begin());
 }
 
 }  // namespace
@@ -105,7 +104,7 @@ ColorShare color_share(const FlareScene& scene, const GhostPath& path, const Bea
     std::vector<std::vector<double>> shares;
     for (const SpectralSample& s : scene.samples)
         shares.push_back(scene.interpolation(s.wavelength_nm));
-    const std::size_t at_main = sample_next_to(scene, scene.system().wavelength_nm);
+    const std::size_t at_main = main_sample(scene);
     result.ratio.assign(rays.size() * samples, 0.0F);
     for (std::size_t g = 0; g < scene.geometry.size(); ++g) {
         const bool is_main = g == scene.main;
@@ -202,27 +201,30 @@ template std::vector<float> ray_light<color_channels>(const FlareScene&, const M
 
 template <int C>
 std::vector<float> bundle_light(const FlareScene& scene, const TracePath<float>& path,
-                                double traced_nm, const Bundle<float>& rays,
-                                const std::vector<float>& shares) {
-    const std::size_t main = sample_next_to(scene, traced_nm), stride = scene.films.stride();
-    std::vector<float> weights, light(rays.size() * C, 0.0F);
+                                const Bundle<float>& rays, const std::vector<float>& shares) {
+    std::vector<float> light(rays.size() * C, 0.0F);
+    if (scene.is_gray()) {
+        for (std::size_t k = 0; k < rays.size(); ++k)
+            for (std::size_t c = 0; c < C; ++c) light[k * C + c] = shares[c] * rays.weight[k];
+        return light;
+    }
+    const std::size_t stride = scene.films.stride();
+    std::vector<float> weights;
     scene.films.weights(path, rays, weights);
     for (std::size_t k = 0; k < rays.size(); ++k) {
-        const float* own = weights.data() + k * stride;
-        const float off_table = own[main] > 0.0F ? std::clamp(rays.weight[k] / own[main],
-                                                              1.0F / most_off_table, most_off_table)
-                                                 : 1.0F;
+        const float average = rays.weight_average[k];
+        const float polarised = average > 0.0F ? rays.weight[k] / average : 0.0F;
         for (std::size_t w = 0; w < scene.samples.size(); ++w)
             for (std::size_t c = 0; c < C; ++c)
-                light[k * C + c] += shares[w * C + c] * off_table * own[w];
+                light[k * C + c] += shares[w * C + c] * polarised * weights[k * stride + w];
     }
     return light;
 }
 template std::vector<float> bundle_light<gray_channels>(const FlareScene&, const TracePath<float>&,
-                                                        double, const Bundle<float>&,
+                                                        const Bundle<float>&,
                                                         const std::vector<float>&);
 template std::vector<float> bundle_light<color_channels>(const FlareScene&, const TracePath<float>&,
-                                                         double, const Bundle<float>&,
+                                                         const Bundle<float>&,
                                                          const std::vector<float>&);
 
 double box_bound_mm2(const FlareScene& scene, const TracePath<float>& path,

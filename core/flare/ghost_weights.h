@@ -54,12 +54,11 @@ std::vector<float> ray_light(const FlareScene& scene, const MirrorGrid& grid,
                              const std::vector<float>& weights, const std::vector<float>& shares);
 
 /// Light per E0 in each channel of rays that kept their cosines and were traced with polarisation
-/// at `traced_nm`: exact there, and at other wavelengths by the tables' ratio. C a ray; `shares` as
+/// at one wavelength, whose effect is taken to be that at the others. C a ray; `shares` as
 /// channel_shares() gives them.
 template <int C>
 std::vector<float> bundle_light(const FlareScene& scene, const TracePath<float>& path,
-                                double traced_nm, const Bundle<float>& rays,
-                                const std::vector<float>& shares);
+                                const Bundle<float>& rays, const std::vector<float>& shares);
 
 /// The most light that a path can bring through the box of a half grid that kept its cosines, mm²
 /// over E0: the box, the largest reflectances at the incidences seen there (beside rays that get

@@ -82,13 +82,6 @@ Fineness GhostPlanner::choose(const ProbedGhost& ghost) const {
     chosen.bands = economies_.merged_colors
                        ? first.colors.bands_for(colors_allowed, most_bands)
                        : std::min(most_bands, static_cast<int>(scene_.samples.size()));
-    // Where rays fail by colour, positions cannot be interpolated between the geometry's
-    // wavelengths.
-    chosen.own_colors = chosen.bands > 1 && first.colors.failing_share > least_failing_share;
-    if (chosen.own_colors)
-        chosen.bands =
-            std::min(FlareScene::most_own_bands,
-                     static_cast<int>(std::bit_ceil(static_cast<unsigned>(chosen.bands))));
     // Weights come from the probe where they are smooth, else they are traced on the grid itself;
     // where rays begin to fail or reflect totally, on a grid for each cell.
     const double weight_allowed = weight_share * spread;
@@ -106,6 +99,14 @@ Fineness GhostPlanner::choose(const ProbedGhost& ghost) const {
     const double shrunk = static_cast<double>(first.cells) / chosen.cells;
     const double singular_mm2 = first.singular_mm2 * shrunk * std::sqrt(shrunk);
     chosen.split = economies_.split_edges && singular_mm2 > singular_share * spread;
+    // Where rays fail, and fail by colour, positions cannot be interpolated between the geometry's
+    // wavelengths, and what is drawn by cells of its own would not fit the rest.
+    chosen.own_colors =
+        chosen.bands > 1 && (chosen.split || first.colors.failing_share > least_failing_share);
+    if (chosen.own_colors)
+        chosen.bands =
+            std::min(FlareScene::most_own_bands,
+                     static_cast<int>(std::bit_ceil(static_cast<unsigned>(chosen.bands))));
     chosen.error_mm2 = saturated(fallen(first.grid_mm2, first.cells, chosen.cells), flux) +
                        flux * first.colors.error(chosen.bands) +
                        std::min(flux, chosen.rough ? fallen(first.weight_mm2, probe, chosen.cells)

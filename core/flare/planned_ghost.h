@@ -128,6 +128,8 @@ class GhostPlanner {
     void trace(const ProbedGhost& ghost, const OpticalSystem& system, Weights weights,
                Bundle<float>& rays) const;
     void mind_rounding(ProbedGhost& ghost) const;
+    ColorRoom room_for_colors(const ProbedGhost& ghost) const;
+    void make_room_for_colors(ProbedGhost& ghost) const;
     std::shared_ptr<const WeightShares> shares_of(ProbedGhost& ghost,
                                                   const TracePath<float>& path) const;
     void trace_other_half(const ProbedGhost& ghost, const OpticalSystem& system, Weights weights,

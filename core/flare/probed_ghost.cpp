@@ -20,7 +20,7 @@ constexpr std::size_t compared_rays = 8;  ///< of a probe, with double precision
 /// Cells that a plan nearby wants, for fewer of them to be enough.
 constexpr double few_enough = 6.5;
 /// Of the light in singular cells: a root drawn as a line is off by as much, over a cell.
-constexpr double singular_factor = 0.3;
+constexpr double singular_factor = 0.1;
 
 /// Of a box's breadth, that its edges may move by, for what is smooth over it to hold.
 constexpr double most_moved = 0.15;
@@ -29,6 +29,18 @@ bool are_alike(const PupilBox& a, const PupilBox& b) {
     const double du = most_moved * (b.u1_mm - b.u0_mm), dv = most_moved * (b.v1_mm - b.v0_mm);
     return std::abs(a.u0_mm - b.u0_mm) <= du && std::abs(a.u1_mm - b.u1_mm) <= du &&
            std::abs(a.v0_mm - b.v0_mm) <= dv && std::abs(a.v1_mm - b.v1_mm) <= dv;
+}
+
+/// By so many cells a box is widened at a time where another colour passes at its edge, and so
+/// often at most.
+constexpr int cells_of_room = 2, most_widenings = 4;
+
+PupilBox with_room(const PupilBox& box, const ColorRoom& room, const PupilBox& entrance) {
+    const double u = box.u1_mm - box.u0_mm, v = box.v1_mm - box.v0_mm;
+    const double edge_mm =
+        std::min(std::max(std::abs(entrance.u0_mm), entrance.u1_mm), box.u1_mm + room.u * u);
+    return {-edge_mm, edge_mm, std::max(entrance.v0_mm, box.v0_mm - room.v_below * v),
+            std::min(entrance.v1_mm, box.v1_mm + room.v_above * v)};
 }
 
 }  // namespace
@@ -120,6 +132,46 @@ ProbedGhost GhostPlanner::find(const GhostPath& path, const PlannedGhost* nearby
     return result;
 }
 
+/// Looks whether rays of the outer geometry wavelengths pass at the edges of the box, which was
+/// found for the main one.
+ColorRoom GhostPlanner::room_for_colors(const ProbedGhost& ghost) const {
+    ColorRoom room;
+    ProbedGhost wider;
+    wider.planned.path = ghost.planned.path;
+    wider.in_double = ghost.in_double;
+    const int cells = ghost.grid.cells;
+    const double step = static_cast<double>(cells_of_room) / cells;
+    for (int k = 0; k < most_widenings; ++k) {
+        wider.planned.box = with_room(ghost.planned.box, room, entrance_);
+        ColorRoom more;
+        for (const OpticalSystem* outer : {&scene_.geometry.front(), &scene_.geometry.back()}) {
+            const MeshNodes nodes = placement_.place(traced(wider, *outer, cells));
+            for (int n = 0; n <= cells; ++n) {
+                auto passes = [&](int i, int j) {
+                    return is_within(nodes, static_cast<std::size_t>(j * (cells + 1) + i), 0.0);
+                };
+                if (passes(0, n) || passes(cells, n)) more.u = step;
+                if (passes(n, 0)) more.v_below = step;
+                if (passes(n, cells)) more.v_above = step;
+            }
+        }
+        if (more.is_none()) break;
+        room = {room.u + more.u, room.v_below + more.v_below, room.v_above + more.v_above};
+    }
+    return room;
+}
+
+void GhostPlanner::make_room_for_colors(ProbedGhost& ghost) const {
+    PlannedGhost& planned = ghost.planned;
+    planned.look.room = ghost.known != nullptr ? ghost.known->room : room_for_colors(ghost);
+    if (planned.look.room.is_none()) return;
+    const double area_mm2 = planned.box.area_mm2();
+    planned.box = with_room(planned.box, planned.look.room, entrance_);
+    planned.bound_mm2 *= planned.box.area_mm2() / area_mm2;
+    ghost.grid = traced(ghost, scene_.system(), ghost.grid.cells, true);
+    planned.rays += ghost.grid.half.size();
+}
+
 std::shared_ptr<const WeightShares> GhostPlanner::shares_of(ProbedGhost& ghost,
                                                             const TracePath<float>& path) const {
     auto shares = std::make_shared<WeightShares>();
@@ -139,6 +191,7 @@ void GhostPlanner::weigh(ProbedGhost& ghost) const {
         ghost.known = nullptr;
     const auto trace = trace_path<float>(scene_.system(), planned.path);
     mind_rounding(ghost);
+    if (scene_.geometry.size() > 1) make_room_for_colors(ghost);
     if (!economies_.half_beams) {
         trace_other_half(ghost, scene_.system(), Weights::none, ghost.grid);
         planned.rays += ghost.grid.other.size();
