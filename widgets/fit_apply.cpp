@@ -5,9 +5,13 @@
 namespace ghostlight {
 
 Prescription with_fitted(const Prescription& lens, const std::string& configuration,
-                         const std::vector<FittedNumber>& numbers) {
+                         const std::vector<FittedNumber>& numbers, const Prescription& found) {
     FittedLens fitted{configured(lens, configuration), {}};
     Prescription result = lens;
+    for (std::size_t row = 0; row < result.surfaces.size(); ++row) {
+        fitted.lens.surfaces[row].coating = found.surfaces[row].coating;
+        result.surfaces[row].coating = found.surfaces[row].coating;
+    }
     const auto own = std::ranges::find(result.configurations, configuration, &Configuration::name);
     const bool has_own = !configuration.empty() && own != result.configurations.end();
     for (const FittedNumber& number : numbers) {

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/fit/light_place.h"
+#include "core/io/coating_words.h"
 #include "core/io/fit_photos.h"
 #include "core/io/photo_file.h"
 #include "core/optics/paraxial.h"
@@ -258,6 +259,8 @@ void FitJob::work_on_fit(const Task& task, const std::stop_token& stop) {
     };
     try {
         FitRequest request = fit_request(task.setup, task.lens);
+        request.kinds = parse_kinds(task.setup.kinds);
+        request.kind_rows = parse_kind_rows(task.setup.kind_rows, task.lens.surfaces.size());
         began(tr("reading the photographs"));
         Notes notes;
         const std::vector<FitPhoto> photos = read_fit_photos(

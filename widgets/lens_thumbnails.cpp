@@ -153,8 +153,8 @@ void LensThumbnails::work(const std::stop_token& stop) {
     for (std::size_t k = 0; k < files_.size() && !stop.stop_requested(); ++k) {
         const int index = static_cast<int>(k);
         const QString kept = cache_file(cache_, files_[k], pixel_ratio_);
-        QImage flare(kept);
-        if (!kept.isEmpty() && !flare.isNull()) {
+        QImage flare = kept.isEmpty() ? QImage() : QImage(kept);
+        if (!flare.isNull()) {
             flare.setDevicePixelRatio(pixel_ratio_);
             Q_EMIT flare_made(index, flare);
             continue;

@@ -44,6 +44,7 @@
 #include "widgets/panels/status_line.h"
 #include "widgets/panels/stop_panel.h"
 #include "widgets/settings.h"
+#include "widgets/theme.h"
 #include "widgets/understanding.h"
 #include "widgets/unknown_glass.h"
 
@@ -331,11 +332,13 @@ void MainWindow::connect_actions() {
     actions_.on("view.expose", [this] { flare_->auto_expose(); });
     actions_.on("view.reset", [this] { arrange_panels(); });
     QAction& light = actions_["view.light_theme"];
-    light.setChecked(settings::theme() == Theme::light);
+    light.setChecked(current_theme() == Theme::light);
     actions_.on("view.light_theme", [this, &light] {
         const Theme theme = light.isChecked() ? Theme::light : Theme::dark;
-        settings::set_theme(theme);
-        apply_theme(*qApp, theme, settings::look());
+        if (remembers_) {
+            settings::set_theme(theme);
+        }
+        apply_theme(*qApp, theme, current_look());
         scene_update_.start();
     });
     connect_absorption();

@@ -121,21 +121,23 @@ void MainWindow::connect_guidance() {
 }
 
 void MainWindow::connect_looks() {
-    const auto change = [](const Look& look) {
-        settings::set_look(look);
-        apply_theme(*qApp, settings::theme(), look);
+    const auto change = [this](const Look& look) {
+        if (remembers_) {
+            settings::set_look(look);
+        }
+        apply_theme(*qApp, current_theme(), look);
     };
     const auto scale_by = [change](double step) {
-        Look look = settings::look();
+        Look look = current_look();
         look.text_scale = std::clamp(look.text_scale + step, least_text_scale, most_text_scale);
         change(look);
     };
     actions_.on("view.larger_text", [scale_by] { scale_by(text_step); });
     actions_.on("view.smaller_text", [scale_by] { scale_by(-text_step); });
     QAction& safe = actions_["view.safe_colors"];
-    safe.setChecked(settings::look().safe_colors);
+    safe.setChecked(current_look().safe_colors);
     actions_.on("view.safe_colors", [this, change, &safe] {
-        Look look = settings::look();
+        Look look = current_look();
         look.safe_colors = safe.isChecked();
         change(look);
         scene_update_.start();

@@ -158,9 +158,23 @@ QFont interface_font(double scale) {
     return font;
 }
 
+struct Applied {
+    Theme theme = Theme::dark;
+    Look look;
+};
+Applied& applied() {
+    static Applied last;
+    return last;
+}
+
 }  // namespace
 
+Theme current_theme() { return applied().theme; }
+
+const Look& current_look() { return applied().look; }
+
 void apply_theme(QApplication& application, Theme theme, const Look& look) {
+    applied() = {theme, look};
     const Palette usual = theme == Theme::dark ? dark_palette() : light_palette();
     current_palette() = look.safe_colors ? safe_palette(usual) : usual;
     QApplication::setStyle(new QuietStyle);

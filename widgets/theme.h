@@ -18,5 +18,8 @@ inline constexpr int usual_text_px = 13;  ///< height of the font at a scale of 
 /// Colours, font and the look of plain controls for the whole program. Widgets that paint
 /// themselves read current_palette() and are told by a palette-change event.
 void apply_theme(QApplication& application, Theme theme, const Look& look = {});
+/// As last applied, which may be another than the one that is kept.
+Theme current_theme();
+const Look& current_look();
 
 }  // namespace ghostlight

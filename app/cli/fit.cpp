@@ -9,6 +9,7 @@
 #include "app/cli/report.h"
 #include "app/cli/spectrum_option.h"
 #include "core/fit/fit_setup.h"
+#include "core/io/coating_words.h"
 #include "core/io/fit_page.h"
 #include "core/io/fit_photos.h"
 #include "core/io/photo_file.h"
@@ -69,13 +70,9 @@ void run(const FitOptions& options) {
         for (const auto part : split(options.kinds, ','))
             request.kinds.push_back(
                 {std::string(part), read_option("--kinds", [&] { return parse_coating(part); })});
-    if (!options.kind_rows.empty())
-        for (const auto part : split(options.kind_rows, ','))
-            request.kind_rows.push_back(static_cast<std::size_t>(
-                integer_value("--kind-rows", std::string(part),
-                              fmt::format("surfaces 1 to {}", loaded.lens.surfaces.size()), 1,
-                              static_cast<std::int64_t>(loaded.lens.surfaces.size())) -
-                1));
+    request.kind_rows = read_option("--kind-rows", [&] {
+        return parse_kind_rows(options.kind_rows, loaded.lens.surfaces.size());
+    });
 
     ProgressLine progress("fitting");
     const FitReport report = *fit_flare(loaded.lens, photos, request, {},
@@ -84,6 +81,8 @@ void run(const FitOptions& options) {
     setup.spectrum = name(request.spectrum);
     setup.left_out = options.left_out;
     setup.only = options.only;
+    setup.kinds = options.kinds;
+    setup.kind_rows = options.kind_rows;
     setup.profiled = options.profile;
     setup.bootstrap = request.bootstrap;
     setup.loss = request.loss;

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/io/coating_csv.h"
-#include "core/io/coating_library.h"
+#include "core/io/coating_words.h"
 #include "core/io/lens_file.h"
 #include "core/io/same_name.h"
 #include "core/optics/optical_system.h"
@@ -93,21 +93,6 @@ void override_sensor_reflectance(Sensor& sensor, std::string_view text) {
     if (!share || *share < 0.0 || *share > 1.0)
         throw bad_value("--sensor-reflectance", text, "a share from 0 to 1, or none");
     sensor.reflectance = UniformReflectance{*share};
-}
-
-Coating parse_quarter_wave(std::string_view text, std::string_view expected) {
-    const auto parts = split(text, ':');
-    if (parts.size() < 2 || parts.size() > 3) throw bad_value("--coating", text, expected);
-    QuarterWave film;
-    const auto center = parse_number(parts[1]);
-    if (!center || *center <= 0.0) throw bad_value("--coating", text, expected);
-    film.center_nm = *center;
-    if (parts.size() == 3) {
-        const auto index = parse_number(parts[2]);
-        if (!index || *index <= 0.0) throw bad_value("--coating", text, expected);
-        film.layer = Medium{{}, ConstantIndex{*index}};
-    }
-    return film;
 }
 
 void override_internal_transmittance(LoadedLens& loaded, std::string_view text) {
@@ -338,16 +323,10 @@ std::vector<std::string> configurations_of(const LensOptions& options) {
 }
 
 Coating parse_coating(std::string_view text) {
-    if (text == "none") return Uncoated{};
-    const std::string expected = fmt::format(
-        "none, qw:NM or qw:NM:INDEX, such as qw:550 (MgF2) or qw:550:1.38, a table of "
-        "reflectances FILE.csv, or one of {}",
-        joined(coating_names(), ", "));
-    if (text.starts_with("qw:")) return parse_quarter_wave(text, expected);
-    if (const Coating* known = find_coating(text)) return *known;
+    if (const auto known = coating_in_words(text)) return *known;
     if (is_same_name(std::filesystem::path(text).extension().string(), ".csv"))
         return read_measured_csv(text);
-    throw bad_value("--coating", text, expected);
+    throw bad_value("--coating", text, coating_words() + ", or a table of reflectances FILE.csv");
 }
 
 CLI::Option* add_light(CLI::App& command, LightOptions& options) {

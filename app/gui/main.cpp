@@ -20,6 +20,7 @@
 #include "core/ghosts/ghost_path.h"
 #include "core/optics/optical_system.h"
 #include "core/units.h"
+#include "widgets/blocking_trace.h"
 #include "widgets/main_window.h"
 #include "widgets/models/prescription_model.h"
 #include "widgets/panels/banner.h"
@@ -41,6 +42,7 @@ Opens the lens-flare workbench, on a lens file if one is given.
                   panels (panel_NAME.png), ghosts.csv and flare.exr into DIR, and exit
   --every-panel   with --snapshot: every panel, not the tabbed ones alone
   --theme NAME    dark or light, this time
+  --text-scale PERCENT  size of letters, 70 to 200, this time
   --ghost PAIRS   ghosts to select at first, e.g. 5-3 or 5-3,7-2
   --do ACTIONS    what to do at first, one after the other: ids of the menus' entries, e.g.
                   ghosts.as_matrix,flare.false_color; or SURFACE.COLUMN=TEXT for a cell of the
@@ -49,6 +51,7 @@ Opens the lens-flare workbench, on a lens file if one is given.
   --engine NAME   what draws flares, this time: automatic, cpu or opengl
   --language CODE texts in this language, this time: en or de
   --size WxH      size of the window in pixels, e.g. 1366x768
+  --trace-blocking  say on stderr which events held up the window for 50 ms or more
   --help          this text
   --version       the version
 
@@ -135,11 +138,21 @@ int run(QApplication& application, const QCommandLineParser& options) {
     if (options.isSet("theme") && theme != "dark" && theme != "light") {
         return fail("--theme: found " + theme.toStdString() + ", expected dark or light");
     }
+    ghostlight::Look look = snapshot ? ghostlight::Look() : ghostlight::settings::look();
+    if (options.isSet("text-scale")) {
+        bool is_number = false;
+        look.text_scale = 0.01 * options.value("text-scale").toDouble(&is_number);
+        if (!is_number || !(look.text_scale >= ghostlight::least_text_scale &&
+                            look.text_scale <= ghostlight::most_text_scale)) {
+            return fail("--text-scale: found " + options.value("text-scale").toStdString() +
+                        ", expected per cent from 70 to 200");
+        }
+    }
     ghostlight::apply_theme(application,
                             theme == "light"              ? ghostlight::Theme::light
                             : theme == "dark" || snapshot ? ghostlight::Theme::dark
                                                           : ghostlight::settings::theme(),
-                            snapshot ? ghostlight::Look() : ghostlight::settings::look());
+                            look);
     ghostlight::MainWindow window(!snapshot);
     if (engine) {
         window.set_engine(*engine);
@@ -218,7 +231,7 @@ int main(int argc, char** argv) {
         qputenv("QT_QPA_PLATFORM", "xcb");
     }
     set_surface_format();
-    QApplication application(argc, argv);
+    ghostlight::TracedApplication application(argc, argv);
     QCoreApplication::setApplicationName("ghostlight");
     QCoreApplication::setOrganizationName("ghostlight");
     QCoreApplication::setApplicationVersion(GHOSTLIGHT_VERSION);
@@ -237,12 +250,18 @@ int main(int argc, char** argv) {
                         {"language", "", "CODE"},
                         {"every-panel", ""},
                         {"theme", "", "NAME"},
+                        {"text-scale", "", "PERCENT"},
                         {"do", "", "ACTIONS"},
                         {"ghost", "", "PAIRS"},
-                        {"study", "", "NAME"}});
+                        {"study", "", "NAME"},
+                        {"trace-blocking", ""}});
     options.addPositionalArgument("LENS", "");
     if (!options.parse(QCoreApplication::arguments())) {
         return fail(options.errorText().toStdString() + " (see --help)");
+    }
+    if (options.isSet("trace-blocking")) {
+        application.trace(ghostlight::TracedApplication::default_least_ms,
+                          ghostlight::TracedApplication::print);
     }
     const QString wanted = options.value("language");
     if (options.isSet("language") && !ghostlight::languages().contains(wanted)) {

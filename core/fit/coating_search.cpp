@@ -167,7 +167,7 @@ bool CoatingSearch::alike(const std::vector<double>& a, const std::vector<double
 
 std::vector<FitMinimum> CoatingSearch::explore(const FitMinimum& from, double margin,
                                                const std::stop_token& stop,
-                                               const std::function<void()>& tell) {
+                                               const std::function<void(const FitMinimum&)>& tell) {
     FitMinimum best = descend_all({from.x}, last_iterations, stop).front();
     // What was stopped has no points to compare.
     if (stop.stop_requested()) return {from};
@@ -197,10 +197,11 @@ std::vector<FitMinimum> CoatingSearch::explore(const FitMinimum& from, double ma
             }
             found = descend_all(points_of(kept), iterations, stop);
             if (stop.stop_requested()) return {best};
+            const FitMinimum& lowest = *std::ranges::min_element(found, {}, by_cost);
+            tell(lowest.cost < best.cost ? lowest : best);
         }
         std::ranges::stable_sort(found, {}, by_cost);
         others.insert(others.end(), found.begin(), found.end());
-        tell();
         if (found.empty() || !(found.front().cost < best.cost - least_gain)) break;
         others.push_back(best);
         best = found.front();

@@ -35,9 +35,11 @@ class CoatingSearch {
                                         int iterations, const std::stop_token& stop);
     /// Minima from the neighbourhood of `from`: each λ0 elsewhere, pairs exchanged, and pairs moved
     /// against each other; again from each better one until there is none. The lowest first, those
-    /// within `margin` of it after it, no two alike.
+    /// within `margin` of it after it, no two alike. `tell` is told the best so far after each
+    /// batch.
     std::vector<FitMinimum> explore(const FitMinimum& from, double margin,
-                                    const std::stop_token& stop, const std::function<void()>& tell);
+                                    const std::stop_token& stop,
+                                    const std::function<void(const FitMinimum& best)>& tell);
     /// Whether the coatings are the same, but for what iterations leave.
     bool alike(const std::vector<double>& a, const std::vector<double>& b) const;
     int iterations() const { return iterations_; }

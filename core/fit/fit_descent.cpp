@@ -17,7 +17,7 @@ struct Watch final : ceres::IterationCallback {
 }  // namespace
 
 Descent descend(FitEvaluator& evaluator, FitLoss loss, double loss_scale, int iterations,
-                const std::function<bool(double)>& go_on, int held) {
+                const std::function<bool(double)>& go_on, DescentAim aim, int held) {
     const auto problem = fit_problem(evaluator, loss, loss_scale);
     if (held >= 0)
         problem->SetManifold(evaluator.x.data(), new ceres::SubsetManifold(
@@ -25,6 +25,14 @@ Descent descend(FitEvaluator& evaluator, FitLoss loss, double loss_scale, int it
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     options.max_num_iterations = iterations;
+    if (aim == DescentAim::minimum) {
+        // Numbers that trade off lie along narrow valleys that bend: Levenberg and Marquardt's
+        // steps end there at a fraction of the way. Steps in the plane of gradient and Gauss and
+        // Newton's step, which may rise for a while, follow them.
+        options.trust_region_strategy_type = ceres::DOGLEG;
+        options.dogleg_type = ceres::SUBSPACE_DOGLEG;
+        options.use_nonmonotonic_steps = true;
+    }
     options.function_tolerance = 1e-8;
     options.parameter_tolerance = 1e-8;
     options.logging_type = ceres::SILENT;

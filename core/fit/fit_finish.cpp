@@ -1,11 +1,13 @@
 #include "core/fit/fit_run.h"
 
 #include <ceres/ceres.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "core/fit/light_place.h"
 #include "core/parallel.h"
 
 namespace ghostlight {
@@ -190,6 +192,12 @@ FitReport FitRun::finish() {
     report.lens = fitted;
     fill_bands(outcome, given_, listed_.lens, fitted.lens, report);
     judge(outcome, report);
+    for (std::size_t i = 0; i < views_.size() && !report.usable; ++i)
+        if (!image_of_light(scene_->system(), views_[i].light))
+            report.verdict += fmt::format(
+                " No ray of a light at a field angle of {:.4g} degrees passes straight through the "
+                "lens: is the light's place right?",
+                photos_[i].light.field_deg);
     profile(report);
     bootstrap(report);
     suggest(known);

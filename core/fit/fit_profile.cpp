@@ -13,7 +13,9 @@ namespace {
 /// Distances from the fit in standard errors, to either side.
 constexpr std::array<double, 6> steps = {0.5, 1.0, 1.5, 2.0, 2.5, 3.0};
 constexpr double chi2_of_95_percent = 3.841;
-constexpr int profile_iterations = 10, bootstrap_iterations = 8;
+/// To the minimum, along valleys that bend: after 8 iterations of Levenberg and Marquardt's a
+/// bootstrap's numbers had gone a third to two thirds of their way, and its scatter was as small.
+constexpr int profile_iterations = 60, bootstrap_iterations = 80;
 
 /// Where a curve of √χ² crosses the 95 % line, going outwards; the last value where it does not.
 double crossing(const std::vector<double>& values, const std::vector<double>& chi2) {
@@ -81,7 +83,7 @@ void FitRun::profile(FitReport& report) {
             continue;
         FittedProfile& profile = report.profiles.emplace_back();
         profile.number = p;
-        const double error = report.numbers[p].standard_error / parameter.prior;
+        const double error = report.numbers[p].own_error / parameter.prior;
         const double low = (parameter.lower - parameter.start) / parameter.prior,
                      high = (parameter.upper - parameter.start) / parameter.prior;
         for (const double side : {-1.0, 1.0}) {
@@ -94,7 +96,8 @@ void FitRun::profile(FitReport& report) {
                 const double cost =
                     descend(
                         *evaluator_, request_.loss, request_.loss_scale, profile_iterations,
-                        [&](double) { return !stop_.stop_requested(); }, static_cast<int>(p))
+                        [&](double) { return !stop_.stop_requested(); }, DescentAim::minimum,
+                        static_cast<int>(p))
                         .cost;
                 check_stop();
                 evaluator_->PrepareForEvaluation(false, true);
@@ -175,8 +178,9 @@ void FitRun::bootstrap(FitReport& report) {
                 }
             }
         }
-        descend(*evaluator_, request_.loss, request_.loss_scale, bootstrap_iterations,
-                [&](double) { return !stop_.stop_requested(); });
+        descend(
+            *evaluator_, request_.loss, request_.loss_scale, bootstrap_iterations,
+            [&](double) { return !stop_.stop_requested(); }, DescentAim::minimum);
         check_stop();
         for (std::size_t p = 0; p < count; ++p) {
             const FitParameter& each = report.numbers[p].parameter;

@@ -169,6 +169,7 @@ void fill_numbers(const FitOutcome& outcome, FitReport& report) {
         const double share =
             std::min(1.0, report.error_scale * std::sqrt(std::max(0.0, known(at, at))));
         number.standard_error = share * parameter.prior;
+        number.own_error = std::min(1.0, report.error_scale * narrow(at)) * parameter.prior;
         number.low =
             std::max(parameter.lower, number.value - sigmas_of_95_percent * number.standard_error);
         number.high =
@@ -223,6 +224,7 @@ void fill_numbers(const FitOutcome& outcome, FitReport& report) {
             {.parameter = parameter,
              .value = parameter.start,
              .standard_error = parameter.prior,
+             .own_error = parameter.prior,
              .low = std::max(parameter.lower, parameter.start - 1.96 * parameter.prior),
              .high = std::min(parameter.upper, parameter.start + 1.96 * parameter.prior),
              .start_error = parameter.prior,

@@ -41,6 +41,8 @@ class FitRun {
     void tell_stage(const char* words) const;
     /// Shows the iteration that is done, where somebody looks.
     void show_look() const;
+    /// The same where a search stands, whose descents are on thinned photographs.
+    void show_search();
     void prepare();
     /// The lens with the geometry as it stands; coatings are the weights' business.
     FittedLens current_geometry() const;
@@ -52,6 +54,8 @@ class FitRun {
     /// Signal to noise of each basis of a photograph at the model's gains.
     std::vector<double> signals(std::size_t photo);
     void look_at_start();
+    /// Throws Error where the ghosts explain no more of the photographs than their background does.
+    void refuse_mere_noise();
     /// After the layout has changed: everything that depends on it.
     void refresh();
     void drop_unfelt();
@@ -72,17 +76,38 @@ class FitRun {
     bool explore_coatings();
     /// Surfaces whose kind of coating is to be chosen, and the signal that turns there.
     std::vector<std::pair<std::size_t, double>> kind_rows();
+    /// Which kind each surface of a search has, by its place among the surface's own.
+    using KindChoice = std::vector<std::size_t>;
+    struct KindSurface {
+        std::size_t row = 0;
+        double signal_to_noise = 0.0;
+        std::vector<CoatingKind> kinds;  ///< those asked for, then the listed one if it is another
+    };
+    /// The best that the coatings can do with a choice of kinds.
     struct KindTrial {
-        Coating coating;
+        KindChoice choice;
+        std::vector<Coating> coatings;  ///< of the search's surfaces
         FitLayout layout;
         std::vector<double> x, log_gains;
         double cost = 0.0;
-        std::size_t numbers = 0;
     };
-    /// The best that a coating (null: the one that is there) can do on a surface, all others moving
-    /// with it.
-    KindTrial with_kind(std::size_t row, const Coating* coating);
-    void take_kind(std::size_t row, const KindTrial& trial);
+    struct KindSearch {
+        std::vector<KindSurface> surfaces;  ///< the strongest first
+        double values = 0.0;                ///< data that costs are sums of
+        std::map<KindChoice, KindTrial> tried;
+        KindChoice now, best;
+        double misfit() const;  ///< that the lowest cost leaves, at least 1
+        double bic(const KindTrial& trial) const;
+        bool is_better(const KindChoice& a, const KindChoice& b) const;
+    };
+    KindSearch kind_search();
+    /// From where the search stands; surfaces whose kind changes begin at several values.
+    KindTrial with_kinds(const KindSearch& search, const KindChoice& choice);
+    void try_kinds(KindSearch& search, const KindChoice& choice);
+    void take_kinds(KindSearch& search, const KindChoice& choice);
+    /// Surface by surface and pair by pair, until nothing is better.
+    void improve_kinds(KindSearch& search);
+    void report_kinds(const KindSearch& search);
     /// The kind of coating on each surface by its BIC (kind_choice.cpp). True when one was changed.
     bool choose_kinds();
     void stand_at(const FitMinimum& minimum);
@@ -110,7 +135,6 @@ class FitRun {
 
     FittedLens listed_;  ///< with the kinds of coating that were chosen
     Prescription given_;
-    std::map<std::size_t, std::string> kind_names_;  ///< of those that were chosen
     const std::vector<FitPhoto>& photos_;
     const FitRequest& request_;
     std::stop_token stop_;

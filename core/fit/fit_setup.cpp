@@ -112,6 +112,8 @@ std::string fit_command(const FitSetup& setup, const std::string& lens) {
     text += fmt::format(" --vary {} --spectrum \"{}\"", setup.vary, setup.spectrum);
     if (!setup.left_out.empty()) text += " --leave-out " + setup.left_out;
     if (!setup.only.empty()) text += " --use-ghosts " + setup.only;
+    if (!setup.kinds.empty()) text += " --kinds " + setup.kinds;
+    if (!setup.kind_rows.empty()) text += " --kind-rows " + setup.kind_rows;
     if (!setup.profiled.empty()) text += " --profile " + setup.profiled;
     if (setup.bootstrap > 0) text += fmt::format(" --bootstrap {}", setup.bootstrap);
     if (setup.loss != usual.loss) text += " --loss " + name(setup.loss);

@@ -23,8 +23,10 @@ struct FitSetup {
     int across = 96;
     int starts = 6;
     int suggestions = 0;
-    std::string profiled;  ///< of `vary`, those whose profile likelihood is wanted
-    int bootstrap = 0;     ///< photographs drawn from the fitted model; 0: none
+    std::string kinds;      ///< of coating, to choose from: "none,qw:550,v-coat"; empty: as listed
+    std::string kind_rows;  ///< surfaces from 1 whose kind is chosen; empty: those that are varied
+    std::string profiled;   ///< of `vary`, those whose profile likelihood is wanted
+    int bootstrap = 0;      ///< photographs drawn from the fitted model; 0: none
     std::uint64_t seed = 1;
     bool operator==(const FitSetup&) const = default;
 };

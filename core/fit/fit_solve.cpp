@@ -25,7 +25,7 @@ constexpr double most_worse = 2.0;
 constexpr int most_halvings = 4;
 /// First guesses for all λ0 together, nm.
 constexpr std::array<double, 5> alike_nm = {550.0, 490.0, 620.0, 440.0, 690.0};
-constexpr int start_iterations = 10, final_iterations = 30, jump_iterations = 8;
+constexpr int start_iterations = 10, final_iterations = 100, jump_iterations = 40;
 /// Minima whose χ² is higher by more than this are excluded: their odds are 1 : 400.
 constexpr double most_chi2_above = 12.0;
 constexpr std::size_t most_minima = 5;
@@ -96,14 +96,16 @@ double FitRun::explained() {
 double FitRun::solve(int iterations) {
     check_stop();
     const auto began = Clock::now();
-    const Descent descent =
-        descend(*evaluator_, request_.loss, request_.loss_scale, iterations, [&](double cost) {
+    const Descent descent = descend(
+        *evaluator_, request_.loss, request_.loss_scale, iterations,
+        [&](double cost) {
             cost_ = cost;
             report_.cost_curve.push_back(cost);
             tell(share_);
             if (request_.look) show_look();
             return !stop_.stop_requested();
-        });
+        },
+        DescentAim::minimum);
     report_.iterations += descent.iterations;
     report_.iteration_ms = ms_since(began) / descent.iterations;
     check_stop();
@@ -113,6 +115,16 @@ double FitRun::solve(int iterations) {
 void FitRun::stand_at(const FitMinimum& minimum) {
     evaluator_->x = minimum.x;
     for (std::size_t i = 0; i < views_.size(); ++i) views_[i].log_gain_start = minimum.log_gains[i];
+}
+
+void FitRun::show_search() {
+    if (request_.look) {
+        cost_ = cost_now();
+        check_stop();
+        report_.cost_curve.push_back(cost_);
+        show_look();
+    }
+    tell(share_);
 }
 
 FitMinimum FitRun::standing() const {
@@ -166,7 +178,10 @@ bool FitRun::explore_coatings() {
     for (const FitView& view : views_) samples += view.data.count;
     const double misfit = std::max(1.0, 2.0 * cost_now() / (3.0 * static_cast<double>(samples)));
     const auto found =
-        search.explore(standing(), most_chi2_above * misfit, stop_, [&] { tell(share_); });
+        search.explore(standing(), most_chi2_above * misfit, stop_, [&](const FitMinimum& best) {
+            stand_at(best);
+            show_search();
+        });
     check_stop();
     report_.iterations += search.iterations();
     // On all samples. The difference of two costs scatters more than for independent samples: noise

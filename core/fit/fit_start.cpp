@@ -15,8 +15,41 @@ namespace {
 constexpr double brighter_at_most = 6.0;
 /// The same where either of its coatings may turn out to be none: 4 % in place of 0.5 %, twice.
 constexpr double brighter_uncoated = 64.0;
+/// χ² of independent samples by which the ghosts must explain the photographs better than a smooth
+/// background does. Noise alone reaches it once in a million: one gain for each of three channels.
+constexpr double least_evidence = 30.0;
 /// A parameter is not felt when the photographs narrow its prior by less than this share.
 constexpr double felt = 1e-3;
+
+/// By how much χ² of a photograph is less when the model's light, times a gain for each channel, is
+/// added to a background of polynomials; of independent samples.
+double evidence_of(const FitView& view, const std::vector<double>& model, int terms) {
+    const auto count = static_cast<Eigen::Index>(std::max(1, terms));
+    double evidence = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        // Weighted normal equations of background, light and photograph.
+        Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count + 2, count + 2);
+        Eigen::VectorXd row(count + 2);
+        for (std::size_t s = 0; s < view.data.samples(); ++s) {
+            if (!view.data.used[s]) continue;
+            const double y = view.data.value[3 * s + c], inverse = 1.0 / view.scales[s].sigma(y);
+            const auto polynomials = background_functions(view.data.frame, s);
+            for (Eigen::Index t = 0; t < count; ++t)
+                row(t) = inverse * polynomials[static_cast<std::size_t>(t)];
+            row(count) = inverse * model[3 * s + c];
+            row(count + 1) = inverse * y;
+            normal.selfadjointView<Eigen::Lower>().rankUpdate(row);
+        }
+        normal = Eigen::MatrixXd(normal.selfadjointView<Eigen::Lower>());
+        const Eigen::MatrixXd left =
+            normal.bottomRightCorner(2, 2) -
+            normal.bottomLeftCorner(2, count) *
+                normal.topLeftCorner(count, count).ldlt().solve(normal.topRightCorner(count, 2));
+        // Ghosts only add light.
+        if (left(0, 0) > 0.0 && left(0, 1) > 0.0) evidence += left(0, 1) * left(0, 1) / left(0, 0);
+    }
+    return evidence / shared_noise();
+}
 
 }  // namespace
 
@@ -46,6 +79,7 @@ void FitRun::look_at_start() {
                                           loudest),
                      .expected = "a photograph exposed so that the flare is well above the "
                                  "noise, with the light near the frame"});
+    refuse_mere_noise();
     for (std::size_t i = 0; i < views_.size(); ++i)
         for (std::size_t g = 0; g < found[i].size(); ++g)
             if (!keep[views_[i].bases[g].ghost]) {
@@ -88,6 +122,25 @@ void FitRun::look_at_start() {
     report_.explained_before = explained();
     cost_ = report_.cost_before;
     tell(0.1);
+}
+
+void FitRun::refuse_mere_noise() {
+    evaluator_->PrepareForEvaluation(false, true);
+    check_stop();
+    double evidence = 0.0;
+    for (std::size_t i = 0; i < views_.size(); ++i)
+        evidence += evidence_of(views_[i], evaluator_->model(i), layout_.background_terms);
+    if (evidence >= least_evidence) return;
+    throw Error(
+        {.problem = "no flare of this lens stands out of the noise",
+         .file = photos_.front().photo.file,
+         .where = {},
+         .found = fmt::format("its ghosts of a light at {:.4g} degrees lower chi-squared by {:.2g} "
+                              "against a smooth background alone",
+                              photos_.front().light.field_deg, evidence),
+         .expected = fmt::format("{:.2g} or more: a photograph in which the flare can be seen, its "
+                                 "light at the place that is told, and its lens",
+                                 least_evidence)});
 }
 
 void FitRun::expect_errors() {

@@ -84,6 +84,9 @@ struct FittedNumber {
     FitParameter parameter;
     double value = 0.0;
     double standard_error = 0.0;
+    /// About the minimum that was taken, as if there were no other; what profiles and bootstraps
+    /// are to be compared with.
+    double own_error = 0.0;
     double low = 0.0, high = 0.0;  ///< 95 %: ± 1.96 standard errors, within the bounds
     double start_error = 0.0;      ///< expected at the start, from the Jacobian there
     FitKnowledge knowledge = FitKnowledge::prior;

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "core/fit/fit_kinds.h"
 #include "core/fit/fit_run.h"
 
 namespace ghostlight {
@@ -14,8 +16,10 @@ namespace {
 constexpr std::array<double, 5> centers_nm = {550.0, 480.0, 620.0, 430.0, 690.0};
 constexpr std::array<double, 5> factors = {1.0, 0.9, 1.1, 0.8, 1.2};
 constexpr int kind_iterations = 12;
-/// A second time round, since what is on one surface bears on what the others seem to have.
-constexpr int most_rounds = 2;
+/// What is on one surface bears on what the others seem to have: round again, so often.
+constexpr int most_rounds = 4;
+/// Of a second surface whose kind changes together with another's.
+constexpr std::size_t second_values = 3;
 /// Kinds with less of the odds than this are excluded; one with more than this is taken for known.
 constexpr double excluded_share = 0.01, known_share = 0.95;
 
@@ -72,65 +76,128 @@ std::vector<std::pair<std::size_t, double>> FitRun::kind_rows() {
     return rows;
 }
 
-FitRun::KindTrial FitRun::with_kind(std::size_t row, const Coating* coating) {
-    KindTrial trial{.coating = listed_.lens.surfaces[row].coating,
-                    .layout = layout_,
-                    .x = {},
-                    .log_gains = {},
-                    .cost = 0.0,
-                    .numbers = 0};
+double FitRun::KindSearch::misfit() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [choice, trial] : tried) least = std::min(least, trial.cost);
+    // Where no kind fits, differences of cost say less.
+    return std::max(1.0, 2.0 * least / values);
+}
+
+double FitRun::KindSearch::bic(const KindTrial& trial) const {
+    return 2.0 * trial.cost / misfit() +
+           static_cast<double>(trial.layout.coatings.size()) * std::log(values);
+}
+
+bool FitRun::KindSearch::is_better(const KindChoice& a, const KindChoice& b) const {
+    constexpr double least_gain = 0.1;
+    return bic(tried.at(a)) < bic(tried.at(b)) - least_gain;
+}
+
+FitRun::KindSearch FitRun::kind_search() {
+    KindSearch search;
+    std::size_t samples = 0;
+    for (const FitView& view : views_) samples += view.data.count;
+    // Costs are those of every second sample each way, which share next to no noise.
+    search.values = 3.0 * static_cast<double>(samples) / 4.0;
+    for (const auto& [row, light] : kind_rows()) {
+        KindSurface& surface =
+            search.surfaces.emplace_back(KindSurface{row, light, request_.kinds});
+        const Coating& listed = listed_.lens.surfaces[row].coating;
+        const auto at = std::ranges::find_if(surface.kinds, [&](const CoatingKind& each) {
+            return same_kind(each.coating, listed);
+        });
+        search.now.push_back(static_cast<std::size_t>(at - surface.kinds.begin()));
+        if (at == surface.kinds.end())
+            surface.kinds.push_back({"as listed", listed});
+        else
+            at->coating = listed;  // its own number and layer
+    }
+    search.best = search.now;
+    return search;
+}
+
+FitRun::KindTrial FitRun::with_kinds(const KindSearch& search, const KindChoice& choice) {
+    KindTrial trial{
+        .choice = choice, .coatings = {}, .layout = layout_, .x = {}, .log_gains = {}, .cost = 0.0};
+    FitScene scene = *scene_;
+    std::vector<std::size_t> changed;
     std::vector<FitParameter> own;
-    std::vector<double> own_x;
-    if (coating != nullptr) {
-        trial.coating = *coating;
-        Prescription lens = listed_.lens;
-        lens.surfaces[row].coating = *coating;
-        own = own_numbers(lens, row);
-        own_x.assign(own.size(), 0.0);
+    std::vector<std::size_t> own_surface;
+    for (std::size_t k = 0; k < choice.size(); ++k) {
+        const std::size_t row = search.surfaces[k].row;
+        Coating& coating = scene.lens.lens.surfaces[row].coating;
+        if (choice[k] != search.now[k]) {
+            coating = search.surfaces[k].kinds[choice[k]].coating;
+            changed.push_back(row);
+            Prescription lens = listed_.lens;
+            lens.surfaces[row].coating = coating;
+            std::vector<FitParameter> its;
+            // As it was asked for, where that can be said of this coating.
+            for (const FitParameter& each : request_.vary)
+                if (each.rows == std::vector{row} && is_coating(each.kind) &&
+                    value_in(lens, each.kind, row, each.layer))
+                    its.push_back(each);
+            if (its.empty()) its = own_numbers(lens, row);
+            own.insert(own.end(), its.begin(), its.end());
+            own_surface.insert(own_surface.end(), its.size(), changed.size() - 1);
+        }
+        trial.coatings.push_back(coating);
     }
     trial.layout.coatings.clear();
     for (std::size_t p = 0; p < layout_.coatings.size(); ++p) {
-        if (coating != nullptr && is_on(layout_.coatings[p], row)) continue;
+        if (std::ranges::any_of(changed,
+                                [&](std::size_t row) { return is_on(layout_.coatings[p], row); }))
+            continue;
         trial.layout.coatings.push_back(layout_.coatings[p]);
         trial.x.push_back(evaluator_->x[p]);
     }
     const std::size_t first_own = trial.x.size();
     trial.layout.coatings.insert(trial.layout.coatings.end(), own.begin(), own.end());
-    trial.x.insert(trial.x.end(), own_x.begin(), own_x.end());
+    trial.x.resize(first_own + own.size(), 0.0);
     trial.x.insert(trial.x.end(),
                    evaluator_->x.begin() + static_cast<std::ptrdiff_t>(layout_.coatings.size()),
                    evaluator_->x.end());
-    FitScene scene = *scene_;
-    scene.lens.lens.surfaces[row].coating = trial.coating;
     std::vector<const GhostBasis*> all;
     for (const FitView& view : views_)
         for (const GhostBasis& basis : view.bases) all.push_back(&basis);
     const GhostWeights weights(scene, all, trial.layout.coatings, request_.threads);
-    CoatingSearch search(trial.layout, views_, weights, request_.loss, request_.loss_scale,
-                         request_.threads);
+    CoatingSearch descents(trial.layout, views_, weights, request_.loss, request_.loss_scale,
+                           request_.threads);
     std::vector<std::vector<double>> points = {trial.x};
-    for (std::size_t p = first_own; p < trial.layout.coatings.size(); ++p) {
-        const FitParameter& each = trial.layout.coatings[p];
-        for (std::size_t k = 0; k < factors.size(); ++k) {
-            const double value =
-                each.kind == FitKind::center ? centers_nm[k] : factors[k] * each.start;
-            if (value <= each.lower || value >= each.upper || value == each.start) continue;
-            points.push_back(trial.x);
-            points.back()[p] = (value - each.start) / each.prior;
+    // One surface at each value; two at each pair of some; more all alike.
+    const std::size_t others = changed.size() == 2 ? second_values : 1;
+    const std::size_t firsts = changed.size() == 2 ? second_values : factors.size();
+    for (std::size_t a = 0; a < firsts && !own.empty(); ++a)
+        for (std::size_t b = 0; b < others; ++b) {
+            std::vector<double> x = trial.x;
+            for (std::size_t q = 0; q < own.size(); ++q) {
+                const FitParameter& each = own[q];
+                const std::size_t k = changed.size() == 2 && own_surface[q] == 1 ? b : a;
+                const double value =
+                    each.kind == FitKind::center ? centers_nm[k] : factors[k] * each.start;
+                if (value > each.lower && value < each.upper)
+                    x[first_own + q] = (value - each.start) / each.prior;
+            }
+            if (x != trial.x) points.push_back(std::move(x));
         }
-    }
-    const auto found = search.descend_all(points, kind_iterations, stop_);
+    const auto found = descents.descend_all(points, kind_iterations, stop_);
     check_stop();
-    report_.iterations += search.iterations();
+    report_.iterations += descents.iterations();
     const FitMinimum& best = *std::ranges::min_element(found, {}, &FitMinimum::cost);
     trial.x = best.x;
     trial.log_gains = best.log_gains;
     trial.cost = best.cost;
-    for (const FitParameter& each : trial.layout.coatings) trial.numbers += is_on(each, row);
+    tell(share_);
     return trial;
 }
 
-void FitRun::take_kind(std::size_t row, const KindTrial& trial) {
+void FitRun::try_kinds(KindSearch& search, const KindChoice& choice) {
+    if (search.tried.contains(choice)) return;
+    search.tried[choice] = with_kinds(search, choice);
+}
+
+void FitRun::take_kinds(KindSearch& search, const KindChoice& choice) {
+    const KindTrial& trial = search.tried.at(choice);
     // What was linearised stays so: only the coatings' part of the unknowns changes.
     std::vector<double> at(trial.layout.coatings.size(), 0.0);
     at.insert(
@@ -138,91 +205,125 @@ void FitRun::take_kind(std::size_t row, const KindTrial& trial) {
         evaluator_->linearised_at.begin() + static_cast<std::ptrdiff_t>(layout_.coatings.size()),
         evaluator_->linearised_at.end());
     layout_ = trial.layout;
-    listed_.lens.surfaces[row].coating = trial.coating;
-    scene_->lens.lens.surfaces[row].coating = trial.coating;
+    for (std::size_t k = 0; k < choice.size(); ++k) {
+        const std::size_t row = search.surfaces[k].row;
+        listed_.lens.surfaces[row].coating = trial.coatings[k];
+        scene_->lens.lens.surfaces[row].coating = trial.coatings[k];
+    }
     refresh();
     stand_at({.x = trial.x, .log_gains = trial.log_gains, .cost = trial.cost});
     evaluator_->linearised_at = at;
+    search.now = choice;
+    show_search();
+    if (search.is_better(choice, search.best)) search.best = choice;
+}
+
+void FitRun::improve_kinds(KindSearch& search) {
+    const std::size_t count = search.surfaces.size();
+    // The best of some choices, if it is better than where the search stands.
+    auto go_to_best_of = [&](const std::vector<KindChoice>& choices) {
+        KindChoice best = search.now;
+        for (const KindChoice& each : choices) {
+            try_kinds(search, each);
+            if (search.is_better(each, best)) best = each;
+        }
+        if (best == search.now) return false;
+        take_kinds(search, best);
+        return true;
+    };
+    for (int round = 0; round < most_rounds; ++round) {
+        bool moved = false;
+        for (std::size_t k = 0; k < count; ++k) {
+            std::vector<KindChoice> choices;
+            for (std::size_t kind = 0; kind < search.surfaces[k].kinds.size(); ++kind) {
+                if (kind == search.now[k]) continue;
+                choices.push_back(search.now);
+                choices.back()[k] = kind;
+            }
+            moved = go_to_best_of(choices) || moved;
+        }
+        if (moved) continue;
+        // Two surfaces that share their ghosts can stand for each other.
+        std::vector<KindChoice> exchanged;
+        for (std::size_t a = 0; a < count; ++a)
+            for (std::size_t b = 0; b < a; ++b) {
+                if (search.now[a] == search.now[b] ||
+                    std::max(search.now[a], search.now[b]) >= request_.kinds.size())
+                    continue;
+                exchanged.push_back(search.now);
+                std::swap(exchanged.back()[a], exchanged.back()[b]);
+            }
+        if (!go_to_best_of(exchanged)) return;
+    }
+}
+
+void FitRun::report_kinds(const KindSearch& search) {
+    report_.kinds.clear();
+    const double lowest = search.bic(search.tried.at(search.best));
+    double all = 0.0, least = std::numeric_limits<double>::infinity();
+    for (const auto& [choice, trial] : search.tried) {
+        all += std::exp(-0.5 * (search.bic(trial) - lowest));
+        least = std::min(least, trial.cost);
+    }
+    for (std::size_t k = 0; k < search.surfaces.size(); ++k) {
+        const KindSurface& of = search.surfaces[k];
+        SurfaceKinds& surface =
+            report_.kinds.emplace_back(SurfaceKinds{of.row, of.signal_to_noise, {}});
+        for (std::size_t kind = 0; kind < of.kinds.size(); ++kind) {
+            KindTried told{.name = of.kinds[kind].name,
+                           .numbers = 0,
+                           .chi2_above = 0.0,
+                           .bic_above = std::numeric_limits<double>::infinity(),
+                           .share = 0.0};
+            for (const auto& [choice, trial] : search.tried) {
+                if (choice[k] != kind) continue;
+                const double above = search.bic(trial) - lowest;
+                told.share += std::exp(-0.5 * above) / all;
+                if (above >= told.bic_above) continue;
+                told.bic_above = above;
+                told.chi2_above = 2.0 * (trial.cost - least) / search.misfit();
+                told.numbers = static_cast<std::size_t>(std::ranges::count_if(
+                    trial.layout.coatings,
+                    [&](const FitParameter& each) { return is_on(each, of.row); }));
+            }
+            if (std::isfinite(told.bic_above)) surface.tried.push_back(std::move(told));
+        }
+        std::ranges::stable_sort(surface.tried, std::ranges::greater{}, &KindTried::share);
+        std::string others;
+        for (std::size_t n = 1; n < surface.tried.size(); ++n)
+            if (surface.tried[n].share > excluded_share)
+                others += fmt::format("{}{} ({:.2g} % of the odds)", others.empty() ? "" : ", ",
+                                      surface.tried[n].name, 100.0 * surface.tried[n].share);
+        report_.remarks.push_back(fmt::format(
+            "Coating of surface {}: {}, {:.3g} % of the odds of {} combinations of kinds that were "
+            "tried{}.",
+            of.row + 1, surface.tried.front().name, 100.0 * surface.tried.front().share,
+            search.tried.size(),
+            surface.tried.front().share < known_share ? "; not told from " + others
+            : surface.tried.size() > 1
+                ? fmt::format(", {} next with a BIC {:.3g} higher", surface.tried[1].name,
+                              surface.tried[1].bic_above)
+                : ""));
+    }
 }
 
 bool FitRun::choose_kinds() {
-    std::size_t samples = 0;
-    for (const FitView& view : views_) samples += view.data.count;
-    // Costs are those of every second sample each way, which share next to no noise.
-    const double values = 3.0 * static_cast<double>(samples) / 4.0;
-    bool changed = false;
-    const auto rows = kind_rows();
-    report_.kinds.clear();
-    for (int round = 0; round < most_rounds; ++round) {
-        bool now = false;
-        std::vector<SurfaceKinds> told;
-        for (const auto& [row, light] : rows) {
-            SurfaceKinds& surface = told.emplace_back();
-            surface.row = row;
-            surface.signal_to_noise = light;
-            std::vector<KindTrial> trials = {with_kind(row, nullptr)};
-            std::vector<std::string> names = {kind_names_.contains(row) ? kind_names_.at(row)
-                                                                        : "as listed"};
-            for (const CoatingKind& each : request_.kinds) {
-                if (same_kind(each.coating, listed_.lens.surfaces[row].coating)) {
-                    names.front() = each.name;
-                    continue;
-                }
-                trials.push_back(with_kind(row, &each.coating));
-                names.push_back(each.name);
-            }
-            double least = std::numeric_limits<double>::infinity();
-            for (const KindTrial& each : trials) least = std::min(least, each.cost);
-            // Where no kind fits, differences of cost say less.
-            const double misfit = std::max(1.0, 2.0 * least / values);
-            std::size_t best = 0;
-            for (std::size_t k = 0; k < trials.size(); ++k) {
-                const double chi2 = 2.0 * (trials[k].cost - least) / misfit;
-                surface.tried.push_back(
-                    {.name = names[k],
-                     .numbers = trials[k].numbers,
-                     .chi2_above = chi2,
-                     .bic_above = chi2 + static_cast<double>(trials[k].numbers) * std::log(values),
-                     .share = 0.0});
-                if (surface.tried[k].bic_above < surface.tried[best].bic_above) best = k;
-            }
-            if (best != 0) {
-                take_kind(row, trials[best]);
-                kind_names_[row] = names[best];
-                now = true;
-            }
-            const double lowest = surface.tried[best].bic_above;
-            double all = 0.0;
-            for (KindTried& each : surface.tried) {
-                each.bic_above -= lowest;
-                each.share = std::exp(-0.5 * each.bic_above);
-                all += each.share;
-            }
-            for (KindTried& each : surface.tried) each.share /= all;
-            std::ranges::stable_sort(surface.tried, {}, &KindTried::bic_above);
-            tell(share_);
-        }
-        report_.kinds = std::move(told);
-        changed = changed || now;
-        if (!now) break;
+    KindSearch search = kind_search();
+    if (search.surfaces.empty()) return false;
+    const KindChoice listed = search.now;
+    try_kinds(search, search.now);
+    take_kinds(search, search.now);
+    improve_kinds(search);
+    // From elsewhere: all surfaces of one kind, as one shop may have coated them.
+    for (std::size_t kind = 0; kind < request_.kinds.size() && listed.size() > 1; ++kind) {
+        const KindChoice alike(listed.size(), kind);
+        try_kinds(search, alike);
+        take_kinds(search, alike);
+        improve_kinds(search);
     }
-    for (const SurfaceKinds& each : report_.kinds) {
-        std::string others;
-        for (std::size_t k = 1; k < each.tried.size(); ++k)
-            if (each.tried[k].share > excluded_share)
-                others += fmt::format("{}{} ({:.2g} % of the odds)", others.empty() ? "" : ", ",
-                                      each.tried[k].name, 100.0 * each.tried[k].share);
-        report_.remarks.push_back(fmt::format(
-            "Coating of surface {}: {}, {:.3g} % of the odds as long as the other surfaces' kinds "
-            "are right{}.",
-            each.row + 1, each.tried.front().name, 100.0 * each.tried.front().share,
-            each.tried.front().share >= known_share
-                ? (each.tried.size() > 1 ? fmt::format(", {} next with a BIC {:.3g} higher",
-                                                       each.tried[1].name, each.tried[1].bic_above)
-                                         : "")
-                : "; not told from " + others));
-    }
-    return changed;
+    take_kinds(search, search.best);
+    report_kinds(search);
+    return search.best != listed;
 }
 
 }  // namespace ghostlight

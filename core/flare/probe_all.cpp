@@ -59,6 +59,19 @@ double granted_share(double tolerance) {
     return granted.back().share;
 }
 
+/// Errors of ghosts that lie over each other make up for each other in part, the more of them there
+/// are: as a root, from `few` ghosts of equal light on, `most` at the utmost. Calibrated likewise.
+double made_up(const std::vector<ProbedGhost>& ghosts) {
+    constexpr double few = 25.0, most = 1.6;
+    double sum = 0.0, squares = 0.0;
+    for (const ProbedGhost& ghost : ghosts) {
+        if (ghost.planned.fate != GhostFate::drawn) continue;
+        sum += ghost.planned.flux_mm2;
+        squares += ghost.planned.flux_mm2 * ghost.planned.flux_mm2;
+    }
+    return squares > 0.0 ? std::clamp(std::sqrt(sum * sum / squares / few), 1.0, most) : 1.0;
+}
+
 void share_among(std::vector<ProbedGhost>& ghosts, double tolerance) {
     std::vector<ErrorShare> shares;
     double total = 0.0, left_out = 0.0;
@@ -71,7 +84,9 @@ void share_among(std::vector<ProbedGhost>& ghosts, double tolerance) {
         if (ghost.planned.fate == GhostFate::left_out) left_out += ghost.planned.bound_mm2;
     }
     const std::vector<double> allowance = share_out(
-        shares, granted_share(tolerance) * std::max(0.0, tolerance * total - left_out), most_share);
+        shares,
+        granted_share(tolerance) * made_up(ghosts) * std::max(0.0, tolerance * total - left_out),
+        most_share);
     for (std::size_t g = 0; g < ghosts.size(); ++g) ghosts[g].planned.allowance_mm2 = allowance[g];
 }
 
@@ -136,7 +151,7 @@ FlarePlan plan_of(const FlareScene& scene, const FlareRequest& request,
     plan.tolerance = request.tolerance;
     plan.not_modelled = higher_order_share(scene.system());
     // What is granted beyond what is asked is what the estimates are too cautious by.
-    const double caution = std::max(1.0, granted_share(request.tolerance));
+    const double caution = std::max(1.0, granted_share(request.tolerance)) * made_up(ghosts);
     for (ProbedGhost& ghost : ghosts) {
         PlannedGhost& planned = ghost.planned;
         planned.error_mm2 /= caution;

@@ -135,7 +135,7 @@ std::string profile_chart(const FitReport& report, const FittedProfile& profile)
     ChartCurve expected{"by the standard error", chart_color(1), profile.values, {}};
     for (const double each : profile.values)
         expected.y.push_back(std::pow((each - report.numbers[profile.number].value) /
-                                          report.numbers[profile.number].standard_error,
+                                          report.numbers[profile.number].own_error,
                                       2));
     return chart_svg({.x_title = fmt::format("{}, {}", name(parameter), unit(parameter)),
                       .y_title = "χ² above the fit's (95 %: 3.84)",
@@ -171,6 +171,18 @@ Table fit_ghost_table(const FitReport& report) {
 Table fit_interval_table(const FitReport& report) {
     Table table;
     table.columns = {"number", "by", "value", "scatter", "low_95", "high_95"};
+    // What the others are to be compared with: all are about the minimum that was taken.
+    std::vector<std::size_t> asked;
+    for (const FittedProfile& each : report.profiles) asked.push_back(each.number);
+    for (const BootstrappedNumber& each : report.bootstrap) asked.push_back(each.number);
+    std::ranges::sort(asked);
+    asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
+    for (const std::size_t k : asked) {
+        const FittedNumber& number = report.numbers[k];
+        const double reach = 1.96 * number.own_error;
+        table.rows.push_back({name(number.parameter), "covariance, this minimum", number.value,
+                              number.own_error, number.value - reach, number.value + reach});
+    }
     for (const FittedProfile& each : report.profiles) {
         const FittedNumber& number = report.numbers[each.number];
         table.rows.push_back({name(number.parameter), "profile likelihood", number.value, Cell(),

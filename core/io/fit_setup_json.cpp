@@ -106,6 +106,8 @@ std::string fit_setup_to_json(const FitSetup& setup, const std::filesystem::path
                              {"samples", setup.across},
                              {"starts", setup.starts},
                              {"suggest", setup.suggestions},
+                             {"kinds", setup.kinds},
+                             {"kind_rows", setup.kind_rows},
                              {"profile", setup.profiled},
                              {"bootstrap", setup.bootstrap},
                              {"seed", setup.seed}});
@@ -135,6 +137,8 @@ FitSetup fit_setup_from_json(std::string_view text, const std::filesystem::path&
         read_count(json, "samples", 16, 512, setup.across);
         read_count(json, "starts", 1, 100, setup.starts);
         read_count(json, "suggest", 0, 50, setup.suggestions);
+        read_text(json, "kinds", setup.kinds);
+        read_text(json, "kind_rows", setup.kind_rows);
         read_text(json, "profile", setup.profiled);
         read_count(json, "bootstrap", 0, 1000, setup.bootstrap);
         read_count(json, "seed", 0, 1e9, setup.seed);

@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <QApplication>
 #include <QLocale>
 #include <QSettings>
 #include <QStandardPaths>
 #include <QTemporaryDir>
 
+#include "widgets/blocking_trace.h"
 #include "widgets/translation.h"
 
 int main(int argc, char** argv) {
@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
     QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, settings.path());
     QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, settings.path());
 
-    QApplication application(argc, argv);
+    ghostlight::TracedApplication application(argc, argv);
     QApplication::setApplicationName("ghostlight-tests");
     QApplication::setOrganizationName("ghostlight-tests");
     // English whatever the machine speaks, with its plurals.

@@ -244,6 +244,53 @@ TEST_F(FitPanelTest, FitFindsTheCoatingAndAppliesItAsOneStep) {
     EXPECT_EQ(center_nm(), wrong_nm);
 }
 
+TEST_F(FitPanelTest, KindOfCoatingIsChosenAndApplied) {
+    // Surface 1 is listed with a single layer of index 1.7, which the photograph's lens has not.
+    ASSERT_FALSE(document_.open(test::tessar()));
+    Prescription wrong = document_.lens();
+    const Coating truth = wrong.surfaces[0].coating;
+    std::get<QuarterWave>(wrong.surfaces[0].coating).layer = Medium{{}, ConstantIndex{1.7}};
+    document_.edit_lens(wrong, "another layer");
+    panel_.add_photographs({photograph()});
+    type_spec("center@1");
+    make_quick();
+    ASSERT_TRUE(settle());
+    const auto type = [&](const char* field, const char* text) {
+        auto* edit = panel_.findChild<QLineEdit*>(field);
+        ASSERT_NE(edit, nullptr) << field;
+        edit->setFocus();
+        edit->selectAll();
+        QTest::keyClicks(edit, text);
+        QTest::keyClick(edit, Qt::Key_Return);
+        ASSERT_TRUE(settle());
+    };
+    type("fit_kinds", "none, glossy");
+    EXPECT_TRUE(panel_.reason().contains("glossy")) << panel_.reason().toStdString();
+    type("fit_kinds", "none, qw:550");
+    EXPECT_EQ(panel_.reason(), "");
+    type("fit_kind_rows", "99");
+    EXPECT_TRUE(panel_.reason().contains("99")) << panel_.reason().toStdString();
+    type("fit_kind_rows", "1");
+    EXPECT_EQ(panel_.reason(), "");
+    const FitSetup setup = fit_setup_from_json(document_.fit());
+    EXPECT_EQ(setup.kinds, "none,qw:550");
+    EXPECT_EQ(setup.kind_rows, "1");
+    click("start");
+    ASSERT_TRUE(settle());
+    ASSERT_EQ(panel_.reason(), "");
+    ASSERT_TRUE(panel_.report());
+    ASSERT_EQ(panel_.report()->kinds.size(), 1U);
+    EXPECT_EQ(panel_.report()->kinds.front().tried.front().name, "qw:550");
+    const int steps = document_.history().count();
+    click("apply");
+    EXPECT_EQ(document_.history().count(), steps + 1);
+    const auto* applied = std::get_if<QuarterWave>(&document_.lens().surfaces[0].coating);
+    ASSERT_NE(applied, nullptr);
+    EXPECT_EQ(applied->layer, std::get<QuarterWave>(truth).layer);
+    document_.history().undo();
+    EXPECT_EQ(document_.lens().surfaces[0].coating, wrong.surfaces[0].coating);
+}
+
 TEST_F(FitPanelTest, CancelledFitKeepsItsBestIteration) {
     open_wrong();
     panel_.add_photographs({photograph()});

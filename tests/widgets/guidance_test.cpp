@@ -4,21 +4,28 @@
 
 #include <QDir>
 #include <QDockWidget>
+#include <QFrame>
+#include <QHeaderView>
+#include <QLineEdit>
 #include <QListWidget>
 #include <QPushButton>
 #include <QSettings>
 #include <QSignalSpy>
+#include <QTableView>
 #include <QTemporaryDir>
+#include <QToolButton>
 
 #include <set>
 
 #include "tests/widgets/window_kit.h"
 #include "widgets/lens_gallery.h"
 #include "widgets/lens_thumbnails.h"
+#include "widgets/models/prescription_model.h"
 #include "widgets/palette.h"
 #include "widgets/panels/flare_panel.h"
 #include "widgets/panels/ghost_panel.h"
 #include "widgets/panels/prescription_panel.h"
+#include "widgets/panels/scene_field.h"
 #include "widgets/settings.h"
 #include "widgets/tour.h"
 
@@ -193,6 +200,48 @@ TEST(Looks, LettersGrowAndShrinkWithinLimits) {
     settings::set_look({});
     apply_theme(*qApp, Theme::dark);
     EXPECT_EQ(QApplication::font().pixelSize(), usual);
+}
+
+TEST(Looks, WhatIsThereHasRoomForLargerLetters) {
+    OpenWindow shown(test::tessar());
+    MainWindow& window = shown.window;
+    window.resize(1200, 800);
+    window.arrange_panels();
+    ASSERT_TRUE(shown.settle());
+    for (int k = 0; k < 3; ++k) {
+        window.actions()["view.larger_text"].trigger();
+    }
+    ASSERT_TRUE(shown.settle());
+    for (const NumberField* field : window.findChildren<NumberField*>()) {
+        const auto* editor = field->findChild<QLineEdit*>();
+        EXPECT_GE(editor->width(), editor->fontMetrics().horizontalAdvance(editor->text()))
+            << qPrintable(editor->text());
+    }
+    const QHeaderView& header = *window.prescription_panel().table().horizontalHeader();
+    for (const int column : {PrescriptionModel::radius, PrescriptionModel::thickness}) {
+        EXPECT_GE(header.sectionSize(column),
+                  header.fontMetrics().horizontalAdvance(
+                      header.model()->headerData(column, Qt::Horizontal).toString()));
+    }
+    // That of the ghosts has the name as well.
+    for (const QFrame* strip : window.findChildren<QFrame*>("layers_strip")) {
+        for (const QToolButton* button : strip->findChildren<QToolButton*>()) {
+            EXPECT_TRUE(!button->isVisible() || button->width() >= button->sizeHint().width())
+                << qPrintable(button->text());
+        }
+    }
+    apply_theme(*qApp, Theme::dark);
+}
+
+TEST(Looks, OtherLettersLeaveTheThemeAsItIs) {
+    OpenWindow shown;
+    apply_theme(*qApp, Theme::light);
+    const QColor ground = current_palette().panel;
+    shown.window.actions()["view.larger_text"].trigger();
+    EXPECT_EQ(current_theme(), Theme::light);
+    EXPECT_EQ(current_palette().panel, ground);
+    apply_theme(*qApp, Theme::dark);
+    EXPECT_NE(current_palette().panel, ground);
 }
 
 }  // namespace

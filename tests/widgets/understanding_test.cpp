@@ -359,6 +359,17 @@ TEST(SweepPanel, RunsExportsAndStops) {
     const GhostCurve& curve = sweep.view().curves().front();
     click(sweep.view(), sweep.view().curve_place(curve, curve.worst));
     ASSERT_EQ(window.selection().ghosts().size(), 1U);
+    // The same by keyboard alone.
+    QTest::keyClick(&sweep.view(), Qt::Key_Home);
+    QTest::keyClick(&sweep.view(), Qt::Key_Right);
+    QTest::keyClick(&sweep.view(), Qt::Key_Return);
+    EXPECT_EQ(window.document().scene().light().direction.field_deg, 5.0);
+    const auto first = window.selection().ghosts();
+    QTest::keyClick(&sweep.view(), Qt::Key_Down);
+    ASSERT_EQ(window.selection().ghosts().size(), 1U);
+    EXPECT_NE(window.selection().ghosts(), first);
+    QTest::keyClick(&sweep.view(), Qt::Key_Up);
+    EXPECT_EQ(window.selection().ghosts(), first);
     sweep.start();
     sweep.stop();
     EXPECT_FALSE(sweep.is_running());

@@ -1,5 +1,6 @@
 #include "widgets/models/quantity_model.h"
 
+#include <QCoreApplication>
 #include <QStringList>
 
 #include <array>
@@ -17,6 +18,35 @@ namespace {
 constexpr std::array<const char*, QuantityModel::column_count> headers = {
     QT_TRANSLATE_NOOP("QuantityModel", "Quantity"), QT_TRANSLATE_NOOP("QuantityModel", "Value"),
     QT_TRANSLATE_NOOP("QuantityModel", "Unit")};
+
+/// As lens_quantities() names them.
+[[maybe_unused]] constexpr std::array labels = {
+    QT_TRANSLATE_NOOP("LensQuantities", "Focal length"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Back focal distance"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Front focal distance"),
+    QT_TRANSLATE_NOOP("LensQuantities", "F-number"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Entrance pupil, place"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Entrance pupil, radius"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Exit pupil, place"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Exit pupil, radius"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Sensor distance"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Defocus"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Ghosts"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Front principal point"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Rear principal point"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Front nodal point"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Rear nodal point"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Pupil magnification"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Working f-number"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Numerical aperture"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Image height"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Half field, to the corner"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Half field, to first order"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Half field, horizontal"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Half field, vertical"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Total track"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Petzval sum"),
+    QT_TRANSLATE_NOOP("LensQuantities", "Higher reflections")};
 
 /// Below this, against lengths of millimetres, a number is 0 but for rounding.
 constexpr double rounding = 1e-12;
@@ -54,7 +84,8 @@ QVariant QuantityModel::data(const QModelIndex& index, int role) const {
     const LensQuantity& quantity = quantities_[static_cast<std::size_t>(index.row())];
     switch (role) {
         case Qt::DisplayRole:
-            return index.column() == name    ? QString::fromStdString(quantity.label)
+            return index.column() == name
+                       ? QCoreApplication::translate("LensQuantities", quantity.label.c_str())
                    : index.column() == value ? text_of(quantity.value)
                                              : QString::fromStdString(quantity.unit);
         case Qt::ToolTipRole:

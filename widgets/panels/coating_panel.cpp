@@ -25,6 +25,7 @@
 #include "widgets/panels/quiet_button.h"
 #include "widgets/panels/table_delegate.h"
 #include "widgets/selection.h"
+#include "widgets/text_scale.h"
 
 namespace ghostlight {
 
@@ -90,6 +91,9 @@ void CoatingPanel::build() {
     } catch (const Error& error) {
         kind_->setToolTip(error.what());  // the plain kinds are there all the same
     }
+    // The longest name of the library may be cut off, what is beside it may not.
+    kind_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    kind_->setMinimumContentsLength(14);
     kind_->setAccessibleName(tr("Kind of coating"));
     model_->setHorizontalHeaderLabels({"#", tr("Material"), "n 550", "nm", "k"});
     for (const int column : {number_column, index_column, thickness_column, k_column}) {
@@ -110,7 +114,7 @@ void CoatingPanel::build() {
     side_->setToolTip(tr("From where the light comes: the angle is the one in the medium there"));
     side_->setAccessibleName(tr("Side that the light comes from"));
     wavelength_->setText("550");
-    wavelength_->setFixedWidth(56);
+    set_line_width(*wavelength_, 56);
     wavelength_->setAccessibleName(tr("Wavelength of the curve over the angle in nm"));
     wavelength_->setToolTip(tr("Wavelength of the curve over the angle, nm"));
     targets_->setPlaceholderText("2-5, 8");
@@ -154,7 +158,7 @@ void CoatingPanel::build() {
     auto* scroll = new QScrollArea;
     scroll->setFrameShape(QFrame::NoFrame);
     scroll->setWidgetResizable(true);
-    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAsNeeded);
     scroll->setWidget(content);
     set_content(scroll);
 

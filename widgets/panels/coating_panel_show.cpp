@@ -85,7 +85,7 @@ void CoatingPanel::show_coating() {
     const auto row = static_cast<std::size_t>(row_);
     const Medium& before = medium_before(document_.lens(), row);
     const Medium& after = document_.lens().surfaces[row].medium_after;
-    header().set_state(QStringLiteral("surface %1 · %2 to %3")
+    header().set_state(tr("surface %1 · %2 to %3")
                            .arg(QString::number(row + 1), QString::fromStdString(describe(before)),
                                 QString::fromStdString(describe(after))));
     int at = static_cast<int>(kind_of(coating()));

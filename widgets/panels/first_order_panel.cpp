@@ -39,7 +39,8 @@ QTableView* make_table(QAbstractItemModel* model, QObject* parent) {
     table->setSelectionMode(QAbstractItemView::ExtendedSelection);
     table->setSelectionBehavior(QAbstractItemView::SelectRows);
     table->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    table->horizontalHeader()->setStretchLastSection(true);
+    // Names may be cut off, numbers and units not.
+    table->horizontalHeader()->setSectionResizeMode(QuantityModel::name, QHeaderView::Stretch);
     return table;
 }
 

@@ -36,6 +36,20 @@ QString what_is_here() {
         "how well each is known.");
 }
 
+/// Of a list as parse_vary() reads it, what it reads for a lens.
+std::string readable_vary(const std::string& words, const Prescription& lens) {
+    QStringList kept;
+    for (const QString& word : QString::fromStdString(words).split(',', Qt::SkipEmptyParts)) {
+        try {
+            parse_vary(word.toStdString(), lens);
+            kept << word;
+        } catch (const Error&) {
+            // Not on this lens.
+        }
+    }
+    return kept.join(',').toStdString();
+}
+
 }  // namespace
 
 FitPanel::FitPanel(Document& document, const Actions& actions, QWidget* parent)
@@ -159,7 +173,9 @@ void FitPanel::follow_document() {
         const Prescription lens = document_.configured_lens();
         photographs_->set_setup(setup_, lens.sensor.width_mm);
         variables_->set_setup(setup_, lens);
-        setup_is_wrong_ = false;
+        if (std::exchange(setup_is_wrong_, false)) {
+            show_reason({});
+        }
         if (lens != fitted_lens_ && !job_->is_running()) {
             drop_result();
         }
@@ -317,16 +333,27 @@ void FitPanel::take_report(const FitReport& report) {
 
 void FitPanel::apply() {
     const auto& numbers = report_ ? report_->numbers : kept_->numbers;
+    const Prescription& found = report_ ? report_->lens.lens : kept_->lens.lens;
     try {
         if (document_.configured_lens() != fitted_lens_) {
             show_reason(tr("the lens was edited since the fit began; fit again"));
             return;
         }
         const Prescription fitted =
-            with_fitted(document_.lens(), document_.scene().configuration, numbers);
+            with_fitted(document_.lens(), document_.scene().configuration, numbers, found);
         // What stands in the table begins from the fitted lens now; the result is still its own.
         fitted_lens_ = configured(fitted, document_.scene().configuration);
+        // A surface whose kind of coating was chosen may no longer have what was varied there.
+        FitSetup setup = setup_;
+        for (std::string* words : {&setup.vary, &setup.held, &setup.profiled}) {
+            *words = readable_vary(*words, fitted_lens_);
+        }
+        document_.history().beginMacro(tr("apply the fit"));
         document_.edit_lens(fitted, tr("apply the fit"));
+        if (!(setup == setup_)) {
+            document_.edit_fit(fit_setup_to_json(setup), tr("vary what is there"));
+        }
+        document_.history().endMacro();
     } catch (const Error& error) {
         show_reason(QString::fromUtf8(error.what()));
     }

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/io/coating_words.h"
 #include "core/io/varied_cells.h"
 #include "widgets/number_text.h"
 #include "widgets/panels/fit_ghost_page.h"
@@ -103,6 +104,7 @@ FitVariables::FitVariables(QWidget* parent)
     column->setContentsMargins(8, 6, 8, 6);
     column->setSpacing(6);
     column->addWidget(pages_, 1);
+    column->addLayout(make_kinds());
     column->addLayout(make_more());
     connect(ghosts_, &FitGhostPage::edited, this, &FitVariables::edited);
     connect(model_, &FitParameterModel::refused, this, &FitVariables::refused);
@@ -164,6 +166,45 @@ QHBoxLayout* FitVariables::make_add() {
     connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, show_choice);
     connect(model_, &QAbstractItemModel::modelReset, this, show_choice);
     show_choice();
+    return row;
+}
+
+QHBoxLayout* FitVariables::make_kinds() {
+    auto* row = new QHBoxLayout;
+    kinds_ = new QLineEdit;
+    kinds_->setObjectName("fit_kinds");
+    kinds_->setPlaceholderText(tr("as listed; or none, qw:550, v-coat"));
+    kinds_->setToolTip(
+        tr("Kinds of coating to choose from on each surface, besides the listed "
+           "one: none, qw:NM[:INDEX], names of the coating library, separated by "
+           "commas; takes longer"));
+    kind_rows_ = new QLineEdit;
+    kind_rows_->setObjectName("fit_kind_rows");
+    kind_rows_->setPlaceholderText(tr("all varied"));
+    kind_rows_->setMaximumWidth(96);
+    kind_rows_->setToolTip(
+        tr("Surfaces whose kind is chosen, separated by commas; empty: those "
+           "whose coating is varied"));
+    auto* kinds_label = new QLabel(tr("Kinds of coating"));
+    kinds_label->setBuddy(kinds_);
+    auto* rows_label = new QLabel(tr("on surfaces"));
+    rows_label->setBuddy(kind_rows_);
+    row->addWidget(kinds_label);
+    row->addWidget(kinds_, 1);
+    row->addWidget(rows_label);
+    row->addWidget(kind_rows_);
+    connect(kinds_, &QLineEdit::editingFinished, this, [this] {
+        change(tr("change kinds of coating"), [this](FitSetup& setup) {
+            setup.kinds = kinds_->text().simplified().remove(' ').toStdString();
+            parse_kinds(setup.kinds);
+        });
+    });
+    connect(kind_rows_, &QLineEdit::editingFinished, this, [this] {
+        change(tr("change where kinds are chosen"), [this](FitSetup& setup) {
+            setup.kind_rows = kind_rows_->text().simplified().remove(' ').toStdString();
+            parse_kind_rows(setup.kind_rows, lens_.surfaces.size());
+        });
+    });
     return row;
 }
 
@@ -361,6 +402,9 @@ void FitVariables::set_setup(const FitSetup& setup, const Prescription& lens) {
     lens_ = lens;
     spectrum_->setText(QString::fromStdString(setup.spectrum));
     loss_->setCurrentIndex(loss_->findData(static_cast<int>(setup.loss)));
+    kinds_->setText(QString::fromStdString(setup.kinds));
+    kind_rows_->setText(QString::fromStdString(setup.kind_rows));
+    kind_rows_->setEnabled(!setup.kinds.empty());
     loss_scale_->setText(shortest(setup.loss_scale));
     loss_scale_->setEnabled(setup.loss != FitLoss::none);
     merge_->setChecked(setup.merge);

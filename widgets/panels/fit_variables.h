@@ -48,6 +48,7 @@ class FitVariables : public QWidget {
    private:
     QHBoxLayout* make_add();
     QVBoxLayout* make_more();
+    QHBoxLayout* make_kinds();
     void add_spec(const QString& text, const QString& step);
     void add_all_coatings();
     void add_marked();
@@ -63,7 +64,8 @@ class FitVariables : public QWidget {
     QTabWidget* pages_;
     FitParameterModel* model_;
     QTableView* table_;
-    QLineEdit *spec_ = nullptr, *spectrum_ = nullptr, *loss_scale_ = nullptr;
+    QLineEdit *spec_ = nullptr, *spectrum_ = nullptr, *loss_scale_ = nullptr, *kinds_ = nullptr,
+              *kind_rows_ = nullptr;
     QComboBox* loss_ = nullptr;
     QCheckBox *merge_ = nullptr, *suggest_ = nullptr;
     QSpinBox* bootstrap_ = nullptr;

@@ -56,9 +56,15 @@ class GhostPanel : public QWidget {
     /// Row from 0 whose coating somebody wants to look at.
     void surface_chosen(int row);
 
+   protected:
+    void resizeEvent(QResizeEvent* event) override;
+
    private:
     enum class Look { table, matrix, surfaces };
+    // What is above the ghosts: ghost_panel_strip.cpp.
     void build_strip();
+    /// In one line where there is room, else in two.
+    void fit_strip();
     void connect_actions(const Actions& actions);
     void set_look(Look look);
     void read_filter();
@@ -84,6 +90,7 @@ class GhostPanel : public QWidget {
     QFrame* strip_ = nullptr;
     QFrame* words_frame_ = nullptr;
     QLineEdit* words_ = nullptr;
+    QToolButton* columns_ = nullptr;
     QLabel* problem_ = nullptr;
     Look look_ = Look::table;
     EmptyState* empty_;

@@ -73,6 +73,7 @@ LayersStrip::LayersStrip(Document& document, QWidget* parent)
     };
     connect(&document_, &Document::changed, this, &LayersStrip::follow_document);
     follow_document();
+    follow_text_scale(*this, [this] { fit_width(); });
 }
 
 void LayersStrip::add_row(LayerKind kind) {
@@ -168,13 +169,14 @@ void LayersStrip::follow_document() {
 
 void LayersStrip::fit_width() {
     const LayerSettings& layers = document_.scene().layers;
-    enum Room { all, no_alone, no_gains, names };
+    enum Room { all, no_alone, no_gains, names, names_of_shown };
     const auto show_for = [&](int room) {
         for (const LayerKind kind : layer_kinds) {
             // What is off takes no room but its name.
             const Row& row = rows_[static_cast<std::size_t>(kind)];
             const LayerSetting& setting = layers.of(kind);
             const bool gained = setting.gain_ev != 0.0;
+            row.on->setVisible(room < names_of_shown || setting.on);
             row.alone->setVisible(room < no_alone && (setting.on || layers.alone == kind));
             row.gain->setVisible(room < no_gains && layers.shows(kind));
             row.reset->setVisible(room < no_gains && layers.shows(kind) && gained);
@@ -183,7 +185,7 @@ void LayersStrip::fit_width() {
         more_->setVisible(room > all);
     };
     // Names stay whole; what has no room goes into the menu, the least wanted first.
-    for (int room = all; room <= names; ++room) {
+    for (int room = all; room <= names_of_shown; ++room) {
         show_for(room);
         layout()->invalidate();
         if (layout()->sizeHint().width() <= width()) {
@@ -200,6 +202,11 @@ void LayersStrip::show_more() {
     for (const LayerKind kind : layer_kinds) {
         const Row& row = rows_[static_cast<std::size_t>(kind)];
         menu->addSection(row.on->text());
+        QAction* on = menu->addAction(tr("Shown"));
+        on->setCheckable(true);
+        on->setChecked(row.on->isChecked());
+        on->setEnabled(row.on->isEnabled());
+        connect(on, &QAction::triggered, row.on, &QToolButton::click);
         if (layers.shows(kind)) {
             const double gain_ev = layers.of(kind).gain_ev;
             const auto offer = [&](const QString& text, double to_ev) {

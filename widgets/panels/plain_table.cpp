@@ -11,6 +11,23 @@
 
 namespace ghostlight {
 
+namespace {
+
+/// Columns keep what they show when letters get larger or smaller.
+void scale_columns_with_text(QHeaderView& header) {
+    follow_text_scale(header, [&header, last = text_scale()]() mutable {
+        const double now = text_scale();
+        if (now != last) {
+            for (int column = 0; column < header.count(); ++column) {
+                header.resizeSection(column, qRound(header.sectionSize(column) * now / last));
+            }
+            last = now;
+        }
+    });
+}
+
+}  // namespace
+
 QTableView* plain_table(QAbstractItemModel* model, QAbstractItemDelegate* delegate) {
     auto* table = new QTableView;
     table->setModel(model);
@@ -27,6 +44,7 @@ QTableView* plain_table(QAbstractItemModel* model, QAbstractItemDelegate* delega
     });
     table->horizontalHeader()->setHighlightSections(false);
     table->horizontalHeader()->setMinimumSectionSize(28);
+    scale_columns_with_text(*table->horizontalHeader());
     return table;
 }
 
@@ -71,6 +89,7 @@ QTreeView* plain_tree(QAbstractItemModel* model, QAbstractItemDelegate* delegate
     tree->header()->setHighlightSections(false);
     tree->header()->setMinimumSectionSize(28);
     tree->header()->setStretchLastSection(false);
+    scale_columns_with_text(*tree->header());
     return tree;
 }
 

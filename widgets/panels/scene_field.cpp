@@ -79,6 +79,7 @@ NumberField::NumberField(const QString& label, const QString& unit, const QStrin
         editor_->selectAll();
     });
     set_text("–");
+    follow_text_scale(*this, [this] { fit_width(); });
 }
 
 void NumberField::set_text(const QString& text) {

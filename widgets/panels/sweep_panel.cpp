@@ -288,7 +288,7 @@ void SweepPanel::finish(std::uint64_t serial) {
 }
 
 void SweepPanel::show_state() {
-    run_->setText(running_ ? tr("Stop") : tr("Sweep"));
+    run_->setText(running_ ? tr("Stop", "the sweep") : tr("Sweep"));
     run_->setEnabled(!document_.is_empty());
     export_->setEnabled(!points_.empty());
     QString state;

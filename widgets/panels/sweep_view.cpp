@@ -1,5 +1,6 @@
 #include "widgets/panels/sweep_view.h"
 
+#include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QPainterPath>
@@ -57,7 +58,14 @@ QString title_of(SweepQuantity quantity) {
 
 }  // namespace
 
-SweepView::SweepView(QWidget* parent) : QWidget(parent) { setObjectName("sweep_view"); }
+SweepView::SweepView(QWidget* parent) : QWidget(parent) {
+    setObjectName("sweep_view");
+    setFocusPolicy(Qt::StrongFocus);
+    setAccessibleName(tr("Flares and curves of the sweep"));
+    setToolTip(
+        tr("A click takes a flare's value, or chooses a curve's ghost. Keys: ← → go from flare to "
+           "flare, Return takes its value, ↑ ↓ choose a curve"));
+}
 
 void SweepView::show_points(const SweepParameter& parameter, std::vector<SweepPoint> points,
                             std::size_t wanted, std::size_t surface_count) {
@@ -65,6 +73,7 @@ void SweepView::show_points(const SweepParameter& parameter, std::vector<SweepPo
     points_ = std::move(points);
     wanted_ = wanted;
     surface_count_ = surface_count;
+    current_ = std::min(current_, points_.empty() ? 0 : points_.size() - 1);
     set_quantity(quantity_);
     make_flares();
 }
@@ -164,7 +173,13 @@ void SweepView::paintEvent(QPaintEvent*) {
             const QRectF picture(place.left() + (place.width() - size.width()) / 2.0, place.top(),
                                  size.width(), size.height());
             painter.drawImage(picture, flares_[k]);
-            painter.setPen(colors.dim);
+            const bool is_current = hasFocus() && k == current_;
+            if (is_current) {
+                painter.setPen(QPen(colors.teal, 2.0));
+                painter.setBrush(Qt::NoBrush);
+                painter.drawRect(picture.adjusted(-1.0, -1.0, 1.0, 1.0));
+            }
+            painter.setPen(is_current ? colors.teal : colors.dim);
             painter.drawText(
                 QRectF(place.left(), place.bottom(), place.width(), 16.0), Qt::AlignCenter,
                 QString::number(points_[k].value, 'g', 4) + (unit == "°" ? unit : QString()));
@@ -265,6 +280,66 @@ void SweepView::mousePressEvent(QMouseEvent* event) {
     if (nearest != nullptr) {
         Q_EMIT ghost_chosen(*nearest);
     }
+}
+
+void SweepView::choose_curve(int step) {
+    const std::vector<Shown> shown = shown_curves();
+    if (shown.empty()) {
+        return;
+    }
+    const auto now = std::ranges::find_if(shown, [](const Shown& each) { return each.selected; });
+    const auto count = static_cast<int>(shown.size());
+    const int from =
+        now == shown.end() ? (step > 0 ? -1 : count) : static_cast<int>(now - shown.begin());
+    Q_EMIT ghost_chosen(
+        shown[static_cast<std::size_t>(std::clamp(from + step, 0, count - 1))].curve->path);
+}
+
+void SweepView::keyPressEvent(QKeyEvent* event) {
+    const auto go_to = [this](std::size_t point) {
+        current_ = point;
+        update();
+    };
+    const bool has_points = !points_.empty();
+    switch (event->key()) {
+        case Qt::Key_Left:
+            go_to(current_ > 0 ? current_ - 1 : 0);
+            break;
+        case Qt::Key_Right:
+            go_to(has_points ? std::min(current_ + 1, points_.size() - 1) : 0);
+            break;
+        case Qt::Key_Home:
+            go_to(0);
+            break;
+        case Qt::Key_End:
+            go_to(has_points ? points_.size() - 1 : 0);
+            break;
+        case Qt::Key_Up:
+            choose_curve(-1);
+            break;
+        case Qt::Key_Down:
+            choose_curve(1);
+            break;
+        case Qt::Key_Return:
+        case Qt::Key_Enter:
+        case Qt::Key_Space:
+            if (has_points) {
+                Q_EMIT value_chosen(points_[current_].value);
+            }
+            break;
+        default:
+            QWidget::keyPressEvent(event);
+    }
+}
+
+void SweepView::focusInEvent(QFocusEvent* event) {
+    QWidget::focusInEvent(event);
+    update();
+}
+
+void SweepView::focusOutEvent(QFocusEvent* event) {
+    QWidget::focusOutEvent(event);
+    update();
 }
 
 }  // namespace ghostlight

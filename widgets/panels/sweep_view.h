@@ -24,6 +24,7 @@ class SweepView : public QWidget {
     void set_selected(std::vector<GhostPath> ghosts);
     const std::vector<SweepPoint>& points() const { return points_; }
     const std::vector<GhostCurve>& curves() const { return curves_; }
+    std::size_t current_point() const { return current_; }
     /// Where a flare of the strip, and a point of a ghost's curve, is on the widget.
     QRectF flare_place(std::size_t point) const;
     QPointF curve_place(const GhostCurve& curve, std::size_t point) const;
@@ -37,6 +38,10 @@ class SweepView : public QWidget {
    protected:
     void paintEvent(QPaintEvent* event) override;
     void mousePressEvent(QMouseEvent* event) override;
+    /// Left and right go from flare to flare, Return takes its value; up and down choose a curve.
+    void keyPressEvent(QKeyEvent* event) override;
+    void focusInEvent(QFocusEvent* event) override;
+    void focusOutEvent(QFocusEvent* event) override;
 
    private:
     struct Shown {
@@ -46,6 +51,7 @@ class SweepView : public QWidget {
     std::vector<Shown> shown_curves() const;
     QRectF chart() const;
     void make_flares();
+    void choose_curve(int step);
 
     SweepParameter parameter_;
     std::vector<SweepPoint> points_;
@@ -55,6 +61,7 @@ class SweepView : public QWidget {
     std::vector<GhostCurve> curves_;
     std::vector<GhostPath> selected_;
     std::vector<QImage> flares_;
+    std::size_t current_ = 0;           ///< point that the keyboard is at
     double low_ = 0.0, high_ = 1.0;     ///< values of the sweep
     double bottom_ = -6.0, top_ = 0.0;  ///< decades of the chart
 };

@@ -780,19 +780,19 @@
     <name>FitGhostModel</name>
     <message>
         <source>Counts</source>
-        <translation type="unfinished"></translation>
+        <translation>Zählt</translation>
     </message>
     <message>
         <source>Signal/noise</source>
-        <translation type="unfinished"></translation>
+        <translation>Signal/Rauschen</translation>
     </message>
     <message>
         <source>Before, %</source>
-        <translation type="unfinished"></translation>
+        <translation>Vorher, %</translation>
     </message>
     <message>
         <source>After, %</source>
-        <translation type="unfinished"></translation>
+        <translation>Nachher, %</translation>
     </message>
     <message>
         <source>Gain</source>
@@ -800,70 +800,70 @@
     </message>
     <message>
         <source>In the fit</source>
-        <translation type="unfinished"></translation>
+        <translation>In der Anpassung</translation>
     </message>
     <message>
         <source>A ghost by its two surfaces; only what is marked counts in the fit</source>
-        <translation type="unfinished"></translation>
+        <translation>Ein Reflex nach seinen zwei Flächen; nur was markiert ist, zählt in der Anpassung</translation>
     </message>
     <message>
         <source>√Σ (model / σ)² over the samples of the photograph that shows it best</source>
-        <translation type="unfinished"></translation>
+        <translation>√Σ (Modell / σ)² über die Stichproben der Aufnahme, die ihn am besten zeigt</translation>
     </message>
     <message>
         <source>Its share of the model&apos;s light on the samples, before the fit</source>
-        <translation type="unfinished"></translation>
+        <translation>Sein Anteil am Licht des Modells in den Stichproben, vor der Anpassung</translation>
     </message>
     <message>
         <source>Its share of the model&apos;s light on the samples, after the fit</source>
-        <translation type="unfinished"></translation>
+        <translation>Sein Anteil am Licht des Modells in den Stichproben, nach der Anpassung</translation>
     </message>
     <message>
         <source>Its light in the photograph over the fitted model&apos;s, all ghosts unmixed together</source>
-        <translation type="unfinished"></translation>
+        <translation>Sein Licht in der Aufnahme über dem des angepassten Modells, alle Reflexe zusammen entmischt</translation>
     </message>
     <message>
         <source>Below the noise: left out by the fit, with the most that its signal to noise can be, its coatings six times as bright as at the start</source>
-        <translation type="unfinished"></translation>
+        <translation>Unter dem Rauschen: von der Anpassung ausgelassen, mit dem größten Signal zu Rauschen, das er haben kann, wenn seine Vergütungen sechsmal so hell sind wie zu Beginn</translation>
     </message>
 </context>
 <context>
     <name>FitParameterModel</name>
     <message>
         <source>Varies</source>
-        <translation type="unfinished"></translation>
+        <translation>Variiert</translation>
     </message>
     <message>
         <source>Start</source>
-        <translation type="unfinished"></translation>
+        <translation>Beginn</translation>
     </message>
     <message>
         <source>Lower</source>
-        <translation type="unfinished"></translation>
+        <translation>Untere</translation>
     </message>
     <message>
         <source>Upper</source>
-        <translation type="unfinished"></translation>
+        <translation>Obere</translation>
     </message>
     <message>
         <source>Prior ±</source>
-        <translation type="unfinished"></translation>
+        <translation>Vorwissen ±</translation>
     </message>
     <message>
         <source>Fitted</source>
-        <translation type="unfinished"></translation>
+        <translation>Angepasst</translation>
     </message>
     <message>
         <source>Std. error</source>
-        <translation type="unfinished"></translation>
+        <translation>Std.-Fehler</translation>
     </message>
     <message>
         <source>Known</source>
-        <translation type="unfinished"></translation>
+        <translation>Bekannt</translation>
     </message>
     <message>
         <source>A number of the lens; only what is marked is varied</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine Zahl des Objektivs; nur was markiert ist, wird variiert</translation>
     </message>
     <message>
         <source>Unit</source>
@@ -871,35 +871,35 @@
     </message>
     <message>
         <source>The lens&apos;s own value, where the fit begins</source>
-        <translation type="unfinished"></translation>
+        <translation>Der Wert des Objektivs selbst, mit dem die Anpassung beginnt</translation>
     </message>
     <message>
         <source>The fit stays above this</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Anpassung bleibt darüber</translation>
     </message>
     <message>
         <source>The fit stays below this</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Anpassung bleibt darunter</translation>
     </message>
     <message>
         <source>Standard deviation of what the shop makes, about the start</source>
-        <translation type="unfinished"></translation>
+        <translation>Standardabweichung dessen, was die Fertigung macht, um den Beginn</translation>
     </message>
     <message>
         <source>What explains the photographs best</source>
-        <translation type="unfinished"></translation>
+        <translation>Was die Aufnahmen am besten erklärt</translation>
     </message>
     <message>
         <source>Standard error, widened for the misfit</source>
-        <translation type="unfinished"></translation>
+        <translation>Standardfehler, um den Rest der Anpassung erweitert</translation>
     </message>
     <message>
         <source>Determined: narrower than half its prior. Weak: narrower, but by less. Prior: the photographs say nothing. Not felt: no visible ghost depends on it. At bound: its error means little</source>
-        <translation type="unfinished"></translation>
+        <translation>Bestimmt: enger als das halbe Vorwissen. Schwach: enger, aber um weniger. Vorwissen: die Aufnahmen sagen nichts. Nicht gefühlt: kein sichtbarer Reflex hängt davon ab. An Grenze: ihr Fehler sagt wenig</translation>
     </message>
     <message>
         <source>95 % interval; P by the number&apos;s profile likelihood</source>
-        <translation type="unfinished"></translation>
+        <translation>95-%-Intervall; P nach der Profil-Likelihood der Zahl</translation>
     </message>
 </context>
 <context>
@@ -1264,6 +1264,113 @@ negativ vor dem Sensor.</translation>
     <message>
         <source>All files (*)</source>
         <translation>Alle Dateien (*)</translation>
+    </message>
+</context>
+<context>
+    <name>LensQuantities</name>
+    <message>
+        <source>Focal length</source>
+        <translation>Brennweite</translation>
+    </message>
+    <message>
+        <source>Back focal distance</source>
+        <translation>Bildseitige Schnittweite</translation>
+    </message>
+    <message>
+        <source>Front focal distance</source>
+        <translation>Dingseitige Schnittweite</translation>
+    </message>
+    <message>
+        <source>F-number</source>
+        <translation>Blendenzahl</translation>
+    </message>
+    <message>
+        <source>Entrance pupil, place</source>
+        <translation>Eintrittspupille, Lage</translation>
+    </message>
+    <message>
+        <source>Entrance pupil, radius</source>
+        <translation>Eintrittspupille, Radius</translation>
+    </message>
+    <message>
+        <source>Exit pupil, place</source>
+        <translation>Austrittspupille, Lage</translation>
+    </message>
+    <message>
+        <source>Exit pupil, radius</source>
+        <translation>Austrittspupille, Radius</translation>
+    </message>
+    <message>
+        <source>Sensor distance</source>
+        <translation>Sensorabstand</translation>
+    </message>
+    <message>
+        <source>Defocus</source>
+        <translation>Defokussierung</translation>
+    </message>
+    <message>
+        <source>Ghosts</source>
+        <translation>Reflexe</translation>
+    </message>
+    <message>
+        <source>Front principal point</source>
+        <translation>Dingseitiger Hauptpunkt</translation>
+    </message>
+    <message>
+        <source>Rear principal point</source>
+        <translation>Bildseitiger Hauptpunkt</translation>
+    </message>
+    <message>
+        <source>Front nodal point</source>
+        <translation>Dingseitiger Knotenpunkt</translation>
+    </message>
+    <message>
+        <source>Rear nodal point</source>
+        <translation>Bildseitiger Knotenpunkt</translation>
+    </message>
+    <message>
+        <source>Pupil magnification</source>
+        <translation>Pupillenmaßstab</translation>
+    </message>
+    <message>
+        <source>Working f-number</source>
+        <translation>Wirksame Blendenzahl</translation>
+    </message>
+    <message>
+        <source>Numerical aperture</source>
+        <translation>Numerische Apertur</translation>
+    </message>
+    <message>
+        <source>Image height</source>
+        <translation>Bildhöhe</translation>
+    </message>
+    <message>
+        <source>Half field, to the corner</source>
+        <translation>Halbes Feld, zur Ecke</translation>
+    </message>
+    <message>
+        <source>Half field, to first order</source>
+        <translation>Halbes Feld, paraxial</translation>
+    </message>
+    <message>
+        <source>Half field, horizontal</source>
+        <translation>Halbes Feld, waagerecht</translation>
+    </message>
+    <message>
+        <source>Half field, vertical</source>
+        <translation>Halbes Feld, senkrecht</translation>
+    </message>
+    <message>
+        <source>Total track</source>
+        <translation>Baulänge</translation>
+    </message>
+    <message>
+        <source>Petzval sum</source>
+        <translation>Petzval-Summe</translation>
+    </message>
+    <message>
+        <source>Higher reflections</source>
+        <translation>Höhere Spiegelungen</translation>
     </message>
 </context>
 <context>
@@ -1639,35 +1746,35 @@ Das Farbfeld zeigt die gespiegelte Farbe unter dem gewählten Licht.</translatio
     <name>QObject</name>
     <message>
         <source>light</source>
-        <translation type="unfinished"></translation>
+        <translation>Licht</translation>
     </message>
     <message>
         <source>clipped</source>
-        <translation type="unfinished"></translation>
+        <translation>überbelichtet</translation>
     </message>
     <message>
         <source>painted</source>
-        <translation type="unfinished"></translation>
+        <translation>übermalt</translation>
     </message>
     <message>
         <source>outside of the crop</source>
-        <translation type="unfinished"></translation>
+        <translation>außerhalb des Ausschnitts</translation>
     </message>
     <message>
         <source>no numbers</source>
-        <translation type="unfinished"></translation>
+        <translation>keine Zahlen</translation>
     </message>
     <message>
         <source>1 hot pixel</source>
-        <translation type="unfinished"></translation>
+        <translation>1 heißes Pixel</translation>
     </message>
     <message>
         <source>%1 hot pixels</source>
-        <translation type="unfinished"></translation>
+        <translation>%1 heiße Pixel</translation>
     </message>
     <message>
         <source>%1 masked: %2</source>
-        <translation type="unfinished"></translation>
+        <translation>%1 maskiert: %2</translation>
     </message>
 </context>
 <context>
@@ -1794,66 +1901,66 @@ sodass die Spalte mehr ergibt als alle Reflexe.</translation>
     <name>ghostlight::AccuracyJob</name>
     <message>
         <source>OpenGL</source>
-        <translation type="unfinished"></translation>
+        <translation>OpenGL</translation>
     </message>
 </context>
 <context>
     <name>ghostlight::AccuracyPanel</name>
     <message>
         <source>Method</source>
-        <translation type="unfinished"></translation>
+        <translation>Verfahren</translation>
     </message>
     <message>
         <source>Setting</source>
-        <translation type="unfinished"></translation>
+        <translation>Einstellung</translation>
     </message>
     <message>
         <source>Median, ms</source>
-        <translation type="unfinished"></translation>
+        <translation>Median, ms</translation>
     </message>
     <message>
         <source>p95, ms</source>
-        <translation type="unfinished"></translation>
+        <translation>p95, ms</translation>
     </message>
     <message>
         <source>Error, %</source>
-        <translation type="unfinished"></translation>
+        <translation>Fehler, %</translation>
     </message>
     <message>
         <source>Energy, %</source>
-        <translation type="unfinished"></translation>
+        <translation>Energie, %</translation>
     </message>
     <message>
         <source>SMAPE, %</source>
-        <translation type="unfinished"></translation>
+        <translation>SMAPE, %</translation>
     </message>
     <message>
         <source>Resolved</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufgelöst</translation>
     </message>
     <message>
         <source>Front</source>
-        <translation type="unfinished"></translation>
+        <translation>Front</translation>
     </message>
     <message>
         <source>Relative L1 of the ghosts&apos; irradiance on the sensor</source>
-        <translation type="unfinished"></translation>
+        <translation>Relatives L1 der Bestrahlungsstärke der Reflexe auf dem Sensor</translation>
     </message>
     <message>
         <source>No: less than three times the reference&apos;s own error</source>
-        <translation type="unfinished"></translation>
+        <translation>Nein: weniger als das Dreifache des Fehlers der Referenz selbst</translation>
     </message>
     <message>
         <source>Nothing measured is both faster and closer</source>
-        <translation type="unfinished"></translation>
+        <translation>Nichts Gemessenes ist zugleich schneller und genauer</translation>
     </message>
     <message>
         <source>Error against time</source>
-        <translation type="unfinished"></translation>
+        <translation>Fehler über Zeit</translation>
     </message>
     <message>
         <source>Promised against achieved</source>
-        <translation type="unfinished"></translation>
+        <translation>Versprochen und erreicht</translation>
     </message>
     <message>
         <source>Table</source>
@@ -1861,63 +1968,63 @@ sodass die Spalte mehr ergibt als alle Reflexe.</translation>
     </message>
     <message>
         <source>Not computed</source>
-        <translation type="unfinished"></translation>
+        <translation>Nicht berechnet</translation>
     </message>
     <message>
         <source>What the picture on screen leaves out, and what that can cost</source>
-        <translation type="unfinished"></translation>
+        <translation>Was das Bild auf dem Schirm auslässt, und was das kosten kann</translation>
     </message>
     <message>
         <source>measuring %1</source>
-        <translation type="unfinished"></translation>
+        <translation>%1 wird gemessen</translation>
     </message>
     <message>
         <source>failed</source>
-        <translation type="unfinished"></translation>
+        <translation>gescheitert</translation>
     </message>
     <message>
         <source>one wavelength</source>
-        <translation type="unfinished"></translation>
+        <translation>eine Wellenlänge</translation>
     </message>
     <message>
         <source>the light&apos;s spectrum</source>
-        <translation type="unfinished"></translation>
+        <translation>das Spektrum des Lichts</translation>
     </message>
     <message>
         <source>OpenGL too</source>
-        <translation type="unfinished"></translation>
+        <translation>auch OpenGL</translation>
     </message>
     <message>
         <source>Width</source>
-        <translation type="unfinished"></translation>
+        <translation>Breite</translation>
     </message>
     <message>
         <source>Of the pictures</source>
-        <translation type="unfinished"></translation>
+        <translation>Der Bilder</translation>
     </message>
     <message>
         <source>Reference</source>
-        <translation type="unfinished"></translation>
+        <translation>Referenz</translation>
     </message>
     <message>
         <source>What the reference may err by; the finer, the longer it takes</source>
-        <translation type="unfinished"></translation>
+        <translation>Was die Referenz falsch sein darf; je feiner, desto länger dauert sie</translation>
     </message>
     <message>
         <source>Budget</source>
-        <translation type="unfinished"></translation>
+        <translation>Zeitrahmen</translation>
     </message>
     <message>
         <source>For the timed frames, the reference not among them; settings that would go beyond it are left out</source>
-        <translation type="unfinished"></translation>
+        <translation>Für die gemessenen Bilder, ohne die Referenz; Einstellungen, die darüber hinaus gingen, werden ausgelassen</translation>
     </message>
     <message>
         <source>Measure OpenGL&apos;s pictures beside the CPU&apos;s</source>
-        <translation type="unfinished"></translation>
+        <translation>Auch die Bilder von OpenGL messen, neben denen des Prozessors</translation>
     </message>
     <message>
         <source>Measure</source>
-        <translation type="unfinished"></translation>
+        <translation>Messen</translation>
     </message>
     <message>
         <source>Cancel</source>
@@ -1925,59 +2032,59 @@ sodass die Spalte mehr ergibt als alle Reflexe.</translation>
     </message>
     <message>
         <source>Save…</source>
-        <translation type="unfinished"></translation>
+        <translation>Sichern …</translation>
     </message>
     <message>
         <source>Tables (CSV), charts (SVG) and one HTML page into a folder</source>
-        <translation type="unfinished"></translation>
+        <translation>Tabellen (CSV), Diagramme (SVG) und eine HTML-Seite in einen Ordner</translation>
     </message>
     <message>
         <source>Folder for the report</source>
-        <translation type="unfinished"></translation>
+        <translation>Ordner für den Bericht</translation>
     </message>
     <message>
         <source>measuring</source>
-        <translation type="unfinished"></translation>
+        <translation>wird gemessen</translation>
     </message>
     <message>
         <source>stopped</source>
-        <translation type="unfinished"></translation>
+        <translation>angehalten</translation>
     </message>
     <message>
         <source>OpenGL took no part: %1</source>
-        <translation type="unfinished"></translation>
+        <translation>OpenGL nahm nicht teil: %1</translation>
     </message>
     <message>
         <source>yes</source>
-        <translation type="unfinished"></translation>
+        <translation>ja</translation>
     </message>
     <message>
         <source>no</source>
-        <translation type="unfinished"></translation>
+        <translation>nein</translation>
     </message>
     <message>
         <source>reference to %1 % in %2 s · the plan kept its tolerance in %3 of %4, %5 not resolved</source>
-        <translation type="unfinished"></translation>
+        <translation>Referenz auf %1 % in %2 s · der Plan hielt seine Toleranz in %3 von %4, %5 nicht aufgelöst</translation>
     </message>
     <message>
         <source>The picture is being drawn.</source>
-        <translation type="unfinished"></translation>
+        <translation>Das Bild wird gezeichnet.</translation>
     </message>
     <message>
         <source>of another state of the lens or light; measure again</source>
-        <translation type="unfinished"></translation>
+        <translation>von einem anderen Stand des Objektivs oder Lichts; neu messen</translation>
     </message>
     <message>
         <source>Only the ghosts of one point light, unchanged by hand, have a plan that says all about them.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nur für die Reflexe eines Punktlichts, von Hand unverändert, sagt ein Plan alles über sie.</translation>
     </message>
     <message>
         <source>Error against time of every way to draw this lens&apos;s flare, measured against a reference, and what the picture leaves out.</source>
-        <translation type="unfinished"></translation>
+        <translation>Fehler über Zeit für alle Verfahren, das Reflexbild dieses Objektivs zu zeichnen, gegen eine Referenz gemessen, und was das Bild auslässt.</translation>
     </message>
     <message>
         <source>Measures every method against a reference for the lens and light at hand.</source>
-        <translation type="unfinished"></translation>
+        <translation>Misst jedes Verfahren gegen eine Referenz, für das Objektiv und das Licht in der Hand.</translation>
     </message>
     <message>
         <source>Accuracy</source>
@@ -2018,31 +2125,31 @@ sodass die Spalte mehr ergibt als alle Reflexe.</translation>
     <name>ghostlight::CoatingPanel</name>
     <message>
         <source>The coating of the surface chosen in the prescription: its layers, what it reflects, and the ghosts that it feeds.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Vergütung der Fläche, die in den Objektivdaten gewählt ist: ihre Schichten, was sie reflektiert und welche Reflexe sie speist.</translation>
     </message>
     <message>
         <source>None</source>
-        <translation type="unfinished"></translation>
+        <translation>Keine</translation>
     </message>
     <message>
         <source>Quarter wave, MgF2</source>
-        <translation type="unfinished"></translation>
+        <translation>Viertelwelle, MgF2</translation>
     </message>
     <message>
         <source>Quarter wave, ideal</source>
-        <translation type="unfinished"></translation>
+        <translation>Viertelwelle, ideal</translation>
     </message>
     <message>
         <source>Layers</source>
-        <translation type="unfinished"></translation>
+        <translation>Schichten</translation>
     </message>
     <message>
         <source>Constant R</source>
-        <translation type="unfinished"></translation>
+        <translation>Festes R</translation>
     </message>
     <message>
         <source>Measured table</source>
-        <translation type="unfinished"></translation>
+        <translation>Gemessene Tabelle</translation>
     </message>
     <message>
         <source>Coating</source>
@@ -2050,91 +2157,91 @@ sodass die Spalte mehr ergibt als alle Reflexe.</translation>
     </message>
     <message>
         <source>+ Layer</source>
-        <translation type="unfinished"></translation>
+        <translation>+ Schicht</translation>
     </message>
     <message>
         <source>A layer after the chosen one</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine Schicht nach der gewählten</translation>
     </message>
     <message>
         <source>− Layer</source>
-        <translation type="unfinished"></translation>
+        <translation>− Schicht</translation>
     </message>
     <message>
         <source>Take the chosen layer away</source>
-        <translation type="unfinished"></translation>
+        <translation>Die gewählte Schicht wegnehmen</translation>
     </message>
     <message>
         <source>⇅ Turn</source>
-        <translation type="unfinished"></translation>
+        <translation>⇅ Wenden</translation>
     </message>
     <message>
         <source>The same layers in reverse order</source>
-        <translation type="unfinished"></translation>
+        <translation>Dieselben Schichten in umgekehrter Folge</translation>
     </message>
     <message>
         <source>R over wavelength</source>
-        <translation type="unfinished"></translation>
+        <translation>R über Wellenlänge</translation>
     </message>
     <message>
         <source>R over angle</source>
-        <translation type="unfinished"></translation>
+        <translation>R über Winkel</translation>
     </message>
     <message>
         <source>Kind of coating</source>
-        <translation type="unfinished"></translation>
+        <translation>Art der Vergütung</translation>
     </message>
     <message>
         <source>Material</source>
-        <translation type="unfinished"></translation>
+        <translation>Material</translation>
     </message>
     <message>
         <source>Layers count from the side that light comes from, or from the air</source>
-        <translation type="unfinished"></translation>
+        <translation>Schichten zählen von der Seite, von der das Licht kommt, oder von der Luft aus</translation>
     </message>
     <message>
         <source>MgF2, a catalogue name, or an index at every wavelength</source>
-        <translation type="unfinished"></translation>
+        <translation>MgF2, ein Katalogname oder eine Brechzahl bei jeder Wellenlänge</translation>
     </message>
     <message>
         <source>Thickness in nm; arithmetic is taken: =550/4/1.38</source>
-        <translation type="unfinished"></translation>
+        <translation>Dicke in nm; auch gerechnet: =550/4/1.38</translation>
     </message>
     <message>
         <source>Extinction k of n + ik; 0 for a layer that does not absorb</source>
-        <translation type="unfinished"></translation>
+        <translation>Extinktion k in n + ik; 0 für eine Schicht, die nicht absorbiert</translation>
     </message>
     <message>
         <source>from the front</source>
-        <translation type="unfinished"></translation>
+        <translation>von vorn</translation>
     </message>
     <message>
         <source>from behind</source>
-        <translation type="unfinished"></translation>
+        <translation>von hinten</translation>
     </message>
     <message>
         <source>From where the light comes: the angle is the one in the medium there</source>
-        <translation type="unfinished"></translation>
+        <translation>Woher das Licht kommt: der Winkel ist der im Medium dort</translation>
     </message>
     <message>
         <source>Side that the light comes from</source>
-        <translation type="unfinished"></translation>
+        <translation>Seite, von der das Licht kommt</translation>
     </message>
     <message>
         <source>Wavelength of the curve over the angle in nm</source>
-        <translation type="unfinished"></translation>
+        <translation>Wellenlänge der Kurve über dem Winkel in nm</translation>
     </message>
     <message>
         <source>Wavelength of the curve over the angle, nm</source>
-        <translation type="unfinished"></translation>
+        <translation>Wellenlänge der Kurve über dem Winkel, nm</translation>
     </message>
     <message>
         <source>Surfaces to copy the coating to</source>
-        <translation type="unfinished"></translation>
+        <translation>Flächen, auf die die Vergütung kopiert wird</translation>
     </message>
     <message>
         <source>Surfaces that get the same coating: 2-5, 8</source>
-        <translation type="unfinished"></translation>
+        <translation>Flächen, die dieselbe Vergütung bekommen: 2-5, 8</translation>
     </message>
     <message>
         <source>Light</source>
@@ -2142,47 +2249,47 @@ sodass die Spalte mehr ergibt als alle Reflexe.</translation>
     </message>
     <message>
         <source>at</source>
-        <translation type="unfinished"></translation>
+        <translation>bei</translation>
     </message>
     <message>
         <source>Copy</source>
-        <translation type="unfinished"></translation>
+        <translation>Kopieren</translation>
     </message>
     <message>
         <source>To all that face air</source>
-        <translation type="unfinished"></translation>
+        <translation>Auf alle an Luft</translation>
     </message>
     <message>
         <source>The same coating on every surface between air and glass</source>
-        <translation type="unfinished"></translation>
+        <translation>Dieselbe Vergütung auf jeder Fläche zwischen Luft und Glas</translation>
     </message>
     <message>
         <source>Copy to</source>
-        <translation type="unfinished"></translation>
+        <translation>Kopieren auf</translation>
     </message>
     <message>
         <source>add a layer to the coating</source>
-        <translation type="unfinished"></translation>
+        <translation>der Vergütung eine Schicht hinzufügen</translation>
     </message>
     <message>
         <source>remove a layer of the coating</source>
-        <translation type="unfinished"></translation>
+        <translation>eine Schicht der Vergütung entfernen</translation>
     </message>
     <message>
         <source>turn the coating</source>
-        <translation type="unfinished"></translation>
+        <translation>die Vergütung wenden</translation>
     </message>
     <message>
         <source>change coating of surface %1</source>
-        <translation type="unfinished"></translation>
+        <translation>Vergütung von Fläche %1 ändern</translation>
     </message>
     <message>
         <source>a thickness in nm</source>
-        <translation type="unfinished"></translation>
+        <translation>eine Dicke in nm</translation>
     </message>
     <message>
         <source>an extinction, 0 or more</source>
-        <translation type="unfinished"></translation>
+        <translation>eine Extinktion, 0 oder mehr</translation>
     </message>
     <message>
         <source>a centre wavelength in nm</source>
@@ -2194,51 +2301,55 @@ sodass die Spalte mehr ergibt als alle Reflexe.</translation>
     </message>
     <message>
         <source>copy the coating of surface %1 to %2 surfaces</source>
-        <translation type="unfinished"></translation>
+        <translation>Vergütung von Fläche %1 auf %2 Flächen kopieren</translation>
     </message>
     <message>
         <source>table</source>
-        <translation type="unfinished"></translation>
+        <translation>Tabelle</translation>
     </message>
     <message>
         <source>centre nm</source>
-        <translation type="unfinished"></translation>
+        <translation>Mitte nm</translation>
     </message>
     <message>
         <source>at every wavelength</source>
-        <translation type="unfinished"></translation>
+        <translation>bei jeder Wellenlänge</translation>
     </message>
     <message>
         <source># air</source>
-        <translation type="unfinished"></translation>
+        <translation># Luft</translation>
     </message>
     <message>
         <source>No ghost turns here.</source>
-        <translation type="unfinished"></translation>
+        <translation>Kein Reflex kehrt hier um.</translation>
     </message>
     <message>
         <source>The ghosts are not traced yet.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Reflexe sind noch nicht berechnet.</translation>
     </message>
     <message>
         <source>&lt;a href=&quot;%1&quot;&gt;%2&lt;/a&gt; %3 mm², met at %4° (up to %5°) %6</source>
-        <translation type="unfinished"></translation>
+        <translation>&lt;a href=&quot;%1&quot;&gt;%2&lt;/a&gt; %3 mm², trifft unter %4° auf (bis %5°) %6</translation>
     </message>
     <message>
         <source>Feeds most: </source>
-        <translation type="unfinished"></translation>
+        <translation>Speist am meisten: </translation>
     </message>
     <message>
         <source>&lt;br&gt;then </source>
-        <translation type="unfinished"></translation>
+        <translation>&lt;br&gt;dann </translation>
     </message>
     <message>
         <source>R % over angle, %1 nm</source>
-        <translation type="unfinished"></translation>
+        <translation>R % über Winkel, %1 nm</translation>
     </message>
     <message>
         <source>R % over wavelength, %1°</source>
-        <translation type="unfinished"></translation>
+        <translation>R % über Wellenlänge, %1°</translation>
+    </message>
+    <message>
+        <source>surface %1 · %2 to %3</source>
+        <translation>Fläche %1 · %2 zu %3</translation>
     </message>
 </context>
 <context>
@@ -2350,11 +2461,11 @@ Was dabei entsteht, ist eine eigene Stellung; Rückgängig nimmt sie wieder weg.
     <name>ghostlight::CorrelationView</name>
     <message>
         <source>Which fitted numbers go together; after a fit.</source>
-        <translation type="unfinished"></translation>
+        <translation>Welche angepassten Zahlen zusammengehen; nach einer Anpassung.</translation>
     </message>
     <message>
         <source>amber +1 · teal −1 · the mouse tells the pair</source>
-        <translation type="unfinished"></translation>
+        <translation>Bernstein +1 · Blaugrün −1 · die Maus nennt das Paar</translation>
     </message>
 </context>
 <context>
@@ -2520,19 +2631,19 @@ Was dabei entsteht, ist eine eigene Stellung; Rückgängig nimmt sie wieder weg.
     <name>ghostlight::FitControls</name>
     <message>
         <source>Start</source>
-        <translation type="unfinished"></translation>
+        <translation>Start</translation>
     </message>
     <message>
         <source>Fit what is marked to the photographs</source>
-        <translation type="unfinished"></translation>
+        <translation>Was markiert ist, an die Aufnahmen anpassen</translation>
     </message>
     <message>
         <source>Pause</source>
-        <translation type="unfinished"></translation>
+        <translation>Pause</translation>
     </message>
     <message>
         <source>Wait after the step in work</source>
-        <translation type="unfinished"></translation>
+        <translation>Nach dem laufenden Schritt warten</translation>
     </message>
     <message>
         <source>Cancel</source>
@@ -2540,167 +2651,167 @@ Was dabei entsteht, ist eine eigene Stellung; Rückgängig nimmt sie wieder weg.
     </message>
     <message>
         <source>Stop, and keep the best so far</source>
-        <translation type="unfinished"></translation>
+        <translation>Anhalten und das Beste bis dahin behalten</translation>
     </message>
     <message>
         <source>Apply</source>
-        <translation type="unfinished"></translation>
+        <translation>Anwenden</translation>
     </message>
     <message>
         <source>Put the fitted numbers into the lens, as one step that can be undone</source>
-        <translation type="unfinished"></translation>
+        <translation>Die angepassten Zahlen ins Objektiv setzen, als ein Schritt, der sich zurücknehmen lässt</translation>
     </message>
     <message>
         <source>Save Report…</source>
-        <translation type="unfinished"></translation>
+        <translation>Bericht sichern …</translation>
     </message>
     <message>
         <source>One HTML page with everything</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine HTML-Seite mit allem</translation>
     </message>
     <message>
         <source>Resume</source>
-        <translation type="unfinished"></translation>
+        <translation>Weiter</translation>
     </message>
 </context>
 <context>
     <name>ghostlight::FitGhostModel</name>
     <message>
         <source>left out by you</source>
-        <translation type="unfinished"></translation>
+        <translation>von Ihnen ausgelassen</translation>
     </message>
     <message>
         <source>fitted</source>
-        <translation type="unfinished"></translation>
+        <translation>angepasst</translation>
     </message>
     <message>
         <source>not told from %1</source>
-        <translation type="unfinished"></translation>
+        <translation>nicht von %1 zu trennen</translation>
     </message>
     <message>
         <source>below the noise: at most %1</source>
-        <translation type="unfinished"></translation>
+        <translation>unter dem Rauschen: höchstens %1</translation>
     </message>
     <message>
         <source>not on the photographs</source>
-        <translation type="unfinished"></translation>
+        <translation>nicht auf den Aufnahmen</translation>
     </message>
 </context>
 <context>
     <name>ghostlight::FitGhostPage</name>
     <message>
         <source>Leave out</source>
-        <translation type="unfinished"></translation>
+        <translation>Auslassen</translation>
     </message>
     <message>
         <source>The chosen ghosts do not count</source>
-        <translation type="unfinished"></translation>
+        <translation>Die gewählten Reflexe zählen nicht</translation>
     </message>
     <message>
         <source>Use only these</source>
-        <translation type="unfinished"></translation>
+        <translation>Nur diese nehmen</translation>
     </message>
     <message>
         <source>The chosen ghosts alone count</source>
-        <translation type="unfinished"></translation>
+        <translation>Allein die gewählten Reflexe zählen</translation>
     </message>
     <message>
         <source>Use all</source>
-        <translation type="unfinished"></translation>
+        <translation>Alle nehmen</translation>
     </message>
     <message>
         <source>Every ghost counts</source>
-        <translation type="unfinished"></translation>
+        <translation>Jeder Reflex zählt</translation>
     </message>
     <message>
         <source>leave ghosts out of the fit</source>
-        <translation type="unfinished"></translation>
+        <translation>Reflexe aus der Anpassung lassen</translation>
     </message>
     <message>
         <source>use only some ghosts in the fit</source>
-        <translation type="unfinished"></translation>
+        <translation>nur einige Reflexe anpassen</translation>
     </message>
     <message>
         <source>use all ghosts in the fit</source>
-        <translation type="unfinished"></translation>
+        <translation>alle Reflexe anpassen</translation>
     </message>
     <message>
         <source>use ghost %1 in the fit</source>
-        <translation type="unfinished"></translation>
+        <translation>Reflex %1 anpassen</translation>
     </message>
     <message>
         <source>leave ghost %1 out of the fit</source>
-        <translation type="unfinished"></translation>
+        <translation>Reflex %1 aus der Anpassung lassen</translation>
     </message>
     <message>
         <source>%1 of %2 ghosts count.</source>
-        <translation type="unfinished"></translation>
+        <translation>%1 von %2 Reflexen zählen.</translation>
     </message>
     <message>
         <source> %1 below the noise were left out: signal to noise %2 at the start, all together.</source>
-        <translation type="unfinished"></translation>
+        <translation> %1 unter dem Rauschen wurden ausgelassen: Signal zu Rauschen %2 zu Beginn, alle zusammen.</translation>
     </message>
 </context>
 <context>
     <name>ghostlight::FitJob</name>
     <message>
         <source>reading the photographs</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufnahmen werden gelesen</translation>
     </message>
 </context>
 <context>
     <name>ghostlight::FitPanel</name>
     <message>
         <source>failed</source>
-        <translation type="unfinished"></translation>
+        <translation>gescheitert</translation>
     </message>
     <message>
         <source>Save Report</source>
-        <translation type="unfinished"></translation>
+        <translation>Bericht sichern</translation>
     </message>
     <message>
         <source>HTML (*.html)</source>
-        <translation type="unfinished"></translation>
+        <translation>HTML (*.html)</translation>
     </message>
     <message>
         <source>paused</source>
-        <translation type="unfinished"></translation>
+        <translation>Pause</translation>
     </message>
     <message>
         <source>fitting</source>
-        <translation type="unfinished"></translation>
+        <translation>passt an</translation>
     </message>
     <message>
         <source>no photograph</source>
-        <translation type="unfinished"></translation>
+        <translation>keine Aufnahme</translation>
     </message>
     <message>
         <source>nothing varies</source>
-        <translation type="unfinished"></translation>
+        <translation>nichts variiert</translation>
     </message>
     <message>
         <source>ready</source>
-        <translation type="unfinished"></translation>
+        <translation>bereit</translation>
     </message>
     <message>
         <source>done in %1 s</source>
-        <translation type="unfinished"></translation>
+        <translation>fertig in %1 s</translation>
     </message>
     <message>
         <source>the lens does not explain the photographs</source>
-        <translation type="unfinished"></translation>
+        <translation>das Objektiv erklärt die Aufnahmen nicht</translation>
     </message>
     <message>
         <source>the lens was edited since the fit began; fit again</source>
-        <translation type="unfinished"></translation>
+        <translation>das Objektiv wurde seit Beginn der Anpassung geändert; neu anpassen</translation>
     </message>
     <message>
         <source>apply the fit</source>
-        <translation type="unfinished"></translation>
+        <translation>die Anpassung anwenden</translation>
     </message>
     <message>
         <source>Finds the coatings and elements that explain photographs of the lens&apos;s flare, and says how well each is known.</source>
-        <translation type="unfinished"></translation>
+        <translation>Findet die Vergütungen und Elemente, die Aufnahmen von Reflexen des Objektivs erklären, und sagt, wie gut jedes bekannt ist.</translation>
     </message>
     <message>
         <source>Fit</source>
@@ -2708,181 +2819,181 @@ Was dabei entsteht, ist eine eigene Stellung; Rückgängig nimmt sie wieder weg.
     </message>
     <message>
         <source>what varies does not suit this lens</source>
-        <translation type="unfinished"></translation>
+        <translation>was variiert, passt nicht zu diesem Objektiv</translation>
     </message>
     <message>
         <source>reading the photographs</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufnahmen werden gelesen</translation>
     </message>
     <message>
         <source>a photograph cannot be used</source>
-        <translation type="unfinished"></translation>
+        <translation>eine Aufnahme ist nicht zu brauchen</translation>
     </message>
     <message>
         <source>pausing after this step</source>
-        <translation type="unfinished"></translation>
+        <translation>Pause nach diesem Schritt</translation>
     </message>
     <message>
         <source>fitting: %1</source>
-        <translation type="unfinished"></translation>
+        <translation>passt an: %1</translation>
     </message>
     <message>
         <source>, %1</source>
-        <translation type="unfinished"></translation>
+        <translation>, %1</translation>
     </message>
     <message>
         <source>best so far kept, errors unknown</source>
-        <translation type="unfinished"></translation>
+        <translation>das Beste bis dahin behalten, Fehler unbekannt</translation>
     </message>
     <message>
         <source>nothing was found yet</source>
-        <translation type="unfinished"></translation>
+        <translation>noch nichts gefunden</translation>
     </message>
     <message>
         <source>stopping; %1</source>
-        <translation type="unfinished"></translation>
+        <translation>hält an; %1</translation>
     </message>
     <message>
         <source>stopped; %1</source>
-        <translation type="unfinished"></translation>
+        <translation>angehalten; %1</translation>
     </message>
     <message>
         <source>waiting for the last one to stop</source>
-        <translation type="unfinished"></translation>
+        <translation>wartet, bis die vorige angehalten hat</translation>
     </message>
 </context>
 <context>
     <name>ghostlight::FitParameterModel</name>
     <message>
         <source>profile</source>
-        <translation type="unfinished"></translation>
+        <translation>Profil</translation>
     </message>
     <message>
         <source>%1: “%2” is not a number</source>
-        <translation type="unfinished"></translation>
+        <translation>%1: „%2“ ist keine Zahl</translation>
     </message>
     <message>
         <source>%1: bounds %2 … %3 do not hold the start %4</source>
-        <translation type="unfinished"></translation>
+        <translation>%1: die Grenzen %2 … %3 schließen den Beginn %4 nicht ein</translation>
     </message>
     <message>
         <source>%1: the prior needs a width above 0</source>
-        <translation type="unfinished"></translation>
+        <translation>%1: das Vorwissen braucht eine Breite über 0</translation>
     </message>
 </context>
 <context>
     <name>ghostlight::FitPhotoForm</name>
     <message>
         <source>%1 cannot be taken</source>
-        <translation type="unfinished"></translation>
+        <translation>%1 geht nicht</translation>
     </message>
     <message>
         <source>Width, mm</source>
-        <translation type="unfinished"></translation>
+        <translation>Breite, mm</translation>
     </message>
     <message>
         <source>Of the whole picture on the sensor, mm; give it where the file is a part of the sensor, or the camera&apos;s sensor is not the lens&apos;s</source>
-        <translation type="unfinished"></translation>
+        <translation>Des ganzen Bilds auf dem Sensor, mm; anzugeben, wo die Datei ein Teil des Sensors ist oder der Sensor der Kamera nicht der des Objektivs</translation>
     </message>
     <message>
         <source>the width</source>
-        <translation type="unfinished"></translation>
+        <translation>die Breite</translation>
     </message>
     <message>
         <source>mm above 0</source>
-        <translation type="unfinished"></translation>
+        <translation>mm über 0</translation>
     </message>
     <message>
         <source>change the photograph&apos;s width</source>
-        <translation type="unfinished"></translation>
+        <translation>Breite der Aufnahme ändern</translation>
     </message>
     <message>
         <source>Axis, px</source>
-        <translation type="unfinished"></translation>
+        <translation>Achse, px</translation>
     </message>
     <message>
         <source>X,Y of the lens&apos;s axis in the file, pixels from the upper left corner: the principal point</source>
-        <translation type="unfinished"></translation>
+        <translation>X,Y der Objektivachse in der Datei, Pixel von der oberen linken Ecke: der Hauptpunkt</translation>
     </message>
     <message>
         <source>move the photograph&apos;s axis</source>
-        <translation type="unfinished"></translation>
+        <translation>Achse der Aufnahme verschieben</translation>
     </message>
     <message>
         <source>Rotation, °</source>
-        <translation type="unfinished"></translation>
+        <translation>Drehung, °</translation>
     </message>
     <message>
         <source>Of the camera about the axis, degrees; what is left of it is fitted</source>
-        <translation type="unfinished"></translation>
+        <translation>Der Kamera um die Achse, Grad; was davon übrig ist, wird angepasst</translation>
     </message>
     <message>
         <source>the rotation</source>
-        <translation type="unfinished"></translation>
+        <translation>die Drehung</translation>
     </message>
     <message>
         <source>degrees from -180 to 180</source>
-        <translation type="unfinished"></translation>
+        <translation>Grad von -180 bis 180</translation>
     </message>
     <message>
         <source>turn the photograph</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufnahme drehen</translation>
     </message>
     <message>
         <source>Crop, px</source>
-        <translation type="unfinished"></translation>
+        <translation>Ausschnitt, px</translation>
     </message>
     <message>
         <source>X,Y,WIDTH,HEIGHT of the part that counts, pixels from the upper left corner; or drag it in the picture with Crop</source>
-        <translation type="unfinished"></translation>
+        <translation>X,Y,BREITE,HÖHE des Teils, der zählt, Pixel von der oberen linken Ecke; oder im Bild mit Ausschnitt ziehen</translation>
     </message>
     <message>
         <source>crop the photograph</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufnahme beschneiden</translation>
     </message>
     <message>
         <source>Noise</source>
-        <translation type="unfinished"></translation>
+        <translation>Rauschen</translation>
     </message>
     <message>
         <source>SHOT,READ: the variance of a value is SHOT × value + READ, 1 being full scale</source>
-        <translation type="unfinished"></translation>
+        <translation>SCHROT,LESE: die Varianz eines Werts ist SCHROT × Wert + LESE, 1 ist Vollausschlag</translation>
     </message>
     <message>
         <source>change the photograph&apos;s noise</source>
-        <translation type="unfinished"></translation>
+        <translation>Rauschen der Aufnahme ändern</translation>
     </message>
     <message>
         <source>Clips at</source>
-        <translation type="unfinished"></translation>
+        <translation>Gesättigt ab</translation>
     </message>
     <message>
         <source>Values from here on are clipped and do not count; 1 is full scale</source>
-        <translation type="unfinished"></translation>
+        <translation>Werte von hier an sind gesättigt und zählen nicht; 1 ist Vollausschlag</translation>
     </message>
     <message>
         <source>the saturation</source>
-        <translation type="unfinished"></translation>
+        <translation>die Sättigung</translation>
     </message>
     <message>
         <source>a value above 0</source>
-        <translation type="unfinished"></translation>
+        <translation>ein Wert über 0</translation>
     </message>
     <message>
         <source>change where the photograph clips</source>
-        <translation type="unfinished"></translation>
+        <translation>Sättigung der Aufnahme ändern</translation>
     </message>
     <message>
         <source>Mask file</source>
-        <translation type="unfinished"></translation>
+        <translation>Maskendatei</translation>
     </message>
     <message>
         <source>A picture of the photograph&apos;s shape, bright where not to look</source>
-        <translation type="unfinished"></translation>
+        <translation>Ein Bild von der Form der Aufnahme, hell, wo nicht hinzusehen ist</translation>
     </message>
     <message>
         <source>change the photograph&apos;s mask</source>
-        <translation type="unfinished"></translation>
+        <translation>Maske der Aufnahme ändern</translation>
     </message>
     <message>
         <source>Choose…</source>
@@ -2890,94 +3001,94 @@ Was dabei entsteht, ist eine eigene Stellung; Rückgängig nimmt sie wieder weg.
     </message>
     <message>
         <source>Choose the mask&apos;s file</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Datei der Maske wählen</translation>
     </message>
     <message>
         <source>Mask</source>
-        <translation type="unfinished"></translation>
+        <translation>Maske</translation>
     </message>
     <message>
         <source>none</source>
-        <translation type="unfinished"></translation>
+        <translation>keine</translation>
     </message>
     <message>
         <source>all</source>
-        <translation type="unfinished"></translation>
+        <translation>alles</translation>
     </message>
     <message>
         <source>the middle</source>
-        <translation type="unfinished"></translation>
+        <translation>die Mitte</translation>
     </message>
     <message>
         <source>0</source>
-        <translation type="unfinished"></translation>
+        <translation>0</translation>
     </message>
     <message>
         <source>%1, the sensor&apos;s</source>
-        <translation type="unfinished"></translation>
+        <translation>%1, die des Sensors</translation>
     </message>
     <message>
         <source>%1,%2 %3</source>
-        <translation type="unfinished"></translation>
+        <translation>%1,%2 %3</translation>
     </message>
     <message>
         <source>estimated</source>
-        <translation type="unfinished"></translation>
+        <translation>geschätzt</translation>
     </message>
     <message>
         <source>by the file</source>
-        <translation type="unfinished"></translation>
+        <translation>nach der Datei</translation>
     </message>
     <message>
         <source>by the file, or estimated</source>
-        <translation type="unfinished"></translation>
+        <translation>nach der Datei, oder geschätzt</translation>
     </message>
     <message>
         <source>as the file has it</source>
-        <translation type="unfinished"></translation>
+        <translation>wie in der Datei</translation>
     </message>
     <message>
         <source>nothing is clipped</source>
-        <translation type="unfinished"></translation>
+        <translation>nichts ist gesättigt</translation>
     </message>
 </context>
 <context>
     <name>ghostlight::FitPhotographs</name>
     <message>
         <source>Photographs (%1);;All files (*)</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufnahmen (%1);;Alle Dateien (*)</translation>
     </message>
     <message>
         <source>place the photograph&apos;s light</source>
-        <translation type="unfinished"></translation>
+        <translation>Licht der Aufnahme setzen</translation>
     </message>
     <message>
         <source>mask a region</source>
-        <translation type="unfinished"></translation>
+        <translation>eine Stelle maskieren</translation>
     </message>
     <message>
         <source>take a masked region away</source>
-        <translation type="unfinished"></translation>
+        <translation>eine maskierte Stelle wegnehmen</translation>
     </message>
     <message>
         <source>crop the photograph</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufnahme beschneiden</translation>
     </message>
     <message>
         <source>take the crop away</source>
-        <translation type="unfinished"></translation>
+        <translation>den Ausschnitt wegnehmen</translation>
     </message>
     <message>
         <source>The photograph that is shown; the fit takes all of them</source>
-        <translation type="unfinished"></translation>
+        <translation>Die gezeigte Aufnahme; die Anpassung nimmt alle</translation>
     </message>
     <message>
         <source>Add…</source>
-        <translation type="unfinished"></translation>
+        <translation>Hinzufügen …</translation>
     </message>
     <message>
         <source>Add photographs: EXR, TIFF, PNG, JPEG or camera RAW</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufnahmen hinzufügen: EXR, TIFF, PNG, JPEG oder RAW der Kamera</translation>
     </message>
     <message>
         <source>Remove</source>
@@ -2985,55 +3096,55 @@ Was dabei entsteht, ist eine eigene Stellung; Rückgängig nimmt sie wieder weg.
     </message>
     <message>
         <source>Take this photograph out of the fit</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Aufnahme aus der Anpassung nehmen</translation>
     </message>
     <message>
         <source>Photographs</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufnahmen</translation>
     </message>
     <message>
         <source>remove a photograph</source>
-        <translation type="unfinished"></translation>
+        <translation>eine Aufnahme entfernen</translation>
     </message>
     <message>
         <source>Photograph</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufnahme</translation>
     </message>
     <message>
         <source>The file</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Datei</translation>
     </message>
     <message>
         <source>Model</source>
-        <translation type="unfinished"></translation>
+        <translation>Modell</translation>
     </message>
     <message>
         <source>What the lens makes, as far as the fit has come</source>
-        <translation type="unfinished"></translation>
+        <translation>Was das Objektiv macht, so weit die Anpassung ist</translation>
     </message>
     <message>
         <source>Overlay</source>
-        <translation type="unfinished"></translation>
+        <translation>Überlagert</translation>
     </message>
     <message>
         <source>Half the photograph, half the model</source>
-        <translation type="unfinished"></translation>
+        <translation>Halb die Aufnahme, halb das Modell</translation>
     </message>
     <message>
         <source>Difference</source>
-        <translation type="unfinished"></translation>
+        <translation>Differenz</translation>
     </message>
     <message>
         <source>Residuals: red where the model is too bright, blue where it is too dark; full at 5 σ</source>
-        <translation type="unfinished"></translation>
+        <translation>Reste: rot, wo das Modell zu hell ist, blau, wo zu dunkel; voll bei 5 σ</translation>
     </message>
     <message>
         <source>Blink</source>
-        <translation type="unfinished"></translation>
+        <translation>Wechsel</translation>
     </message>
     <message>
         <source>Photograph and model in turn</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufnahme und Modell abwechselnd</translation>
     </message>
     <message>
         <source>Light</source>
@@ -3041,240 +3152,240 @@ Was dabei entsteht, ist eine eigene Stellung; Rückgängig nimmt sie wieder weg.
     </message>
     <message>
         <source>Click where the light is</source>
-        <translation type="unfinished"></translation>
+        <translation>Anklicken, wo das Licht ist</translation>
     </message>
     <message>
         <source>Box</source>
-        <translation type="unfinished"></translation>
+        <translation>Kasten</translation>
     </message>
     <message>
         <source>Drag boxes over what is not to count</source>
-        <translation type="unfinished"></translation>
+        <translation>Kästen über das ziehen, was nicht zählen soll</translation>
     </message>
     <message>
         <source>Lasso</source>
-        <translation type="unfinished"></translation>
+        <translation>Lasso</translation>
     </message>
     <message>
         <source>Draw around what is not to count</source>
-        <translation type="unfinished"></translation>
+        <translation>Um das herum zeichnen, was nicht zählen soll</translation>
     </message>
     <message>
         <source>Brush</source>
-        <translation type="unfinished"></translation>
+        <translation>Pinsel</translation>
     </message>
     <message>
         <source>Paint over what is not to count</source>
-        <translation type="unfinished"></translation>
+        <translation>Über das malen, was nicht zählen soll</translation>
     </message>
     <message>
         <source>Erase</source>
-        <translation type="unfinished"></translation>
+        <translation>Löschen</translation>
     </message>
     <message>
         <source>Click a painted region to take it away</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine gemalte Stelle anklicken, um sie wegzunehmen</translation>
     </message>
     <message>
         <source>Crop</source>
-        <translation type="unfinished"></translation>
+        <translation>Ausschnitt</translation>
     </message>
     <message>
         <source>Drag over what is to count; a click: all</source>
-        <translation type="unfinished"></translation>
+        <translation>Über das ziehen, was zählen soll; ein Klick: alles</translation>
     </message>
     <message>
         <source>Diameter of the brush, pixels of the file</source>
-        <translation type="unfinished"></translation>
+        <translation>Durchmesser des Pinsels, Pixel der Datei</translation>
     </message>
     <message>
         <source>Mask</source>
-        <translation type="unfinished"></translation>
+        <translation>Maske</translation>
     </message>
     <message>
         <source>Show what does not count: amber painted, blue about the light, red clipped or hot, dark outside of the crop</source>
-        <translation type="unfinished"></translation>
+        <translation>Zeigen, was nicht zählt: bernstein gemalt, blau um das Licht, rot gesättigt oder heiß, dunkel außerhalb des Ausschnitts</translation>
     </message>
     <message>
         <source>Where the light is: auto, X,Y in pixels from the upper left corner, or deg:FIELD:AZIMUTH; or click it in the photograph</source>
-        <translation type="unfinished"></translation>
+        <translation>Wo das Licht ist: auto, X,Y in Pixeln von der oberen linken Ecke, oder deg:FELD:AZIMUT; oder in der Aufnahme anklicken</translation>
     </message>
     <message>
         <source>Find</source>
-        <translation type="unfinished"></translation>
+        <translation>Suchen</translation>
     </message>
     <message>
         <source>The middle of the largest bright patch</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Mitte des größten hellen Flecks</translation>
     </message>
     <message>
         <source>Details</source>
-        <translation type="unfinished"></translation>
+        <translation>Mehr</translation>
     </message>
     <message>
         <source>Where the photograph lies on the sensor, its noise, where it clips, a mask from a file</source>
-        <translation type="unfinished"></translation>
+        <translation>Wo die Aufnahme auf dem Sensor liegt, ihr Rauschen, wo sie gesättigt ist, eine Maske aus einer Datei</translation>
     </message>
     <message>
         <source>find the photograph&apos;s light</source>
-        <translation type="unfinished"></translation>
+        <translation>Licht der Aufnahme suchen</translation>
     </message>
     <message>
         <source>add a photograph</source>
-        <translation type="unfinished"></translation>
+        <translation>eine Aufnahme hinzufügen</translation>
     </message>
     <message>
         <source>add photographs</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufnahmen hinzufügen</translation>
     </message>
     <message>
         <source>reading…</source>
-        <translation type="unfinished"></translation>
+        <translation>wird gelesen …</translation>
     </message>
     <message>
         <source>Add a photograph with a bright light in or near the frame.</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine Aufnahme mit einem hellen Licht im Bild oder nahe daran hinzufügen.</translation>
     </message>
     <message>
         <source>light at %1°</source>
-        <translation type="unfinished"></translation>
+        <translation>Licht bei %1°</translation>
     </message>
 </context>
 <context>
     <name>ghostlight::FitPictureView</name>
     <message>
         <source>The model&apos;s picture comes with the fit&apos;s first step.</source>
-        <translation type="unfinished"></translation>
+        <translation>Das Bild des Modells kommt mit dem ersten Schritt der Anpassung.</translation>
     </message>
     <message>
         <source>model</source>
-        <translation type="unfinished"></translation>
+        <translation>Modell</translation>
     </message>
     <message>
         <source>photograph</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufnahme</translation>
     </message>
     <message>
         <source>Click where the light is</source>
-        <translation type="unfinished"></translation>
+        <translation>Anklicken, wo das Licht ist</translation>
     </message>
     <message>
         <source>Drag over what is not to count</source>
-        <translation type="unfinished"></translation>
+        <translation>Über das ziehen, was nicht zählen soll</translation>
     </message>
     <message>
         <source>Draw around what is not to count</source>
-        <translation type="unfinished"></translation>
+        <translation>Um das herum zeichnen, was nicht zählen soll</translation>
     </message>
     <message>
         <source>Paint over what is not to count</source>
-        <translation type="unfinished"></translation>
+        <translation>Über das malen, was nicht zählen soll</translation>
     </message>
     <message>
         <source>Click a painted region to take it away</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine gemalte Stelle anklicken, um sie wegzunehmen</translation>
     </message>
     <message>
         <source>Drag over what is to count; a click: all</source>
-        <translation type="unfinished"></translation>
+        <translation>Über das ziehen, was zählen soll; ein Klick: alles</translation>
     </message>
 </context>
 <context>
     <name>ghostlight::FitProfilePage</name>
     <message>
         <source>Choose numbers and press Profile, or ask for a bootstrap, before the fit starts.</source>
-        <translation type="unfinished"></translation>
+        <translation>Zahlen wählen und Profil drücken, oder einen Bootstrap verlangen, bevor die Anpassung beginnt.</translation>
     </message>
     <message>
         <source>%1 to %2 %3</source>
-        <translation type="unfinished"></translation>
+        <translation>%1 bis %2 %3</translation>
     </message>
     <message>
         <source>By its standard error: %1.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nach ihrem Standardfehler: %1.</translation>
     </message>
     <message>
         <source>value</source>
-        <translation type="unfinished"></translation>
+        <translation>Wert</translation>
     </message>
     <message>
         <source>value, %1</source>
-        <translation type="unfinished"></translation>
+        <translation>Wert, %1</translation>
     </message>
     <message>
         <source>χ² above the fit&apos;s</source>
-        <translation type="unfinished"></translation>
+        <translation>χ² über dem der Anpassung</translation>
     </message>
     <message>
         <source>by its standard error</source>
-        <translation type="unfinished"></translation>
+        <translation>nach ihrem Standardfehler</translation>
     </message>
     <message>
         <source>95 %</source>
-        <translation type="unfinished"></translation>
+        <translation>95 %</translation>
     </message>
     <message>
         <source>profile</source>
-        <translation type="unfinished"></translation>
+        <translation>Profil</translation>
     </message>
     <message>
         <source>By its profile: %1.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nach ihrem Profil: %1.</translation>
     </message>
     <message>
         <source>By the bootstrap: %1, mean %2 ± %3.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nach dem Bootstrap: %1, Mittel %2 ± %3.</translation>
     </message>
     <message>
         <source>95 % interval. %1</source>
-        <translation type="unfinished"></translation>
+        <translation>95-%-Intervall. %1</translation>
     </message>
 </context>
 <context>
     <name>ghostlight::FitResults</name>
     <message>
         <source>iteration</source>
-        <translation type="unfinished"></translation>
+        <translation>Schritt</translation>
     </message>
     <message>
         <source>cost</source>
-        <translation type="unfinished"></translation>
+        <translation>Kosten</translation>
     </message>
     <message>
         <source>The verdict, and what is not determined; after a fit.</source>
-        <translation type="unfinished"></translation>
+        <translation>Das Urteil, und was nicht bestimmt ist; nach einer Anpassung.</translation>
     </message>
     <message>
         <source>wavelength, nm</source>
-        <translation type="unfinished"></translation>
+        <translation>Wellenlänge, nm</translation>
     </message>
     <message>
         <source>R, %</source>
-        <translation type="unfinished"></translation>
+        <translation>R, %</translation>
     </message>
     <message>
         <source>Cost</source>
-        <translation type="unfinished"></translation>
+        <translation>Kosten</translation>
     </message>
     <message>
         <source>Verdict</source>
-        <translation type="unfinished"></translation>
+        <translation>Urteil</translation>
     </message>
     <message>
         <source>Reflectances</source>
-        <translation type="unfinished"></translation>
+        <translation>Reflexionsgrade</translation>
     </message>
     <message>
         <source>Correlations</source>
-        <translation type="unfinished"></translation>
+        <translation>Korrelationen</translation>
     </message>
     <message>
         <source>each</source>
-        <translation type="unfinished"></translation>
+        <translation>jede</translation>
     </message>
     <message>
         <source>best so far</source>
-        <translation type="unfinished"></translation>
+        <translation>beste bisher</translation>
     </message>
     <message>
         <source>Surface %1</source>
@@ -3282,82 +3393,82 @@ Was dabei entsteht, ist eine eigene Stellung; Rückgängig nimmt sie wieder weg.
     </message>
     <message>
         <source>Surface %1, normal incidence</source>
-        <translation type="unfinished"></translation>
+        <translation>Fläche %1, senkrechter Einfall</translation>
     </message>
     <message>
         <source>start</source>
-        <translation type="unfinished"></translation>
+        <translation>Beginn</translation>
     </message>
     <message>
         <source>fitted, 95 %</source>
-        <translation type="unfinished"></translation>
+        <translation>angepasst, 95 %</translation>
     </message>
     <message>
         <source>Determined:</source>
-        <translation type="unfinished"></translation>
+        <translation>Bestimmt:</translation>
     </message>
     <message>
         <source>Weakly known:</source>
-        <translation type="unfinished"></translation>
+        <translation>Schwach bekannt:</translation>
     </message>
     <message>
         <source>Known by their priors alone:</source>
-        <translation type="unfinished"></translation>
+        <translation>Allein durch Vorwissen bekannt:</translation>
     </message>
     <message>
         <source>Held, as no visible ghost feels them:</source>
-        <translation type="unfinished"></translation>
+        <translation>Festgehalten, da kein sichtbarer Reflex sie spürt:</translation>
     </message>
     <message>
         <source>At a bound:</source>
-        <translation type="unfinished"></translation>
+        <translation>An einer Grenze:</translation>
     </message>
     <message>
         <source>%1 (%2 %)</source>
-        <translation type="unfinished"></translation>
+        <translation>%1 (%2 %)</translation>
     </message>
     <message>
         <source>Kinds of coating on surface %1, by their odds:</source>
-        <translation type="unfinished"></translation>
+        <translation>Arten der Vergütung auf Fläche %1, nach ihren Chancen:</translation>
     </message>
     <message>
         <source>&lt;p&gt;&lt;span style=&quot;color:%1&quot;&gt;Combinations that the photographs do not determine, and their width over the prior&apos;s:&lt;/span&gt;&lt;/p&gt;&lt;ul&gt;</source>
-        <translation type="unfinished"></translation>
+        <translation>&lt;p&gt;&lt;span style=&quot;color:%1&quot;&gt;Kombinationen, die die Aufnahmen nicht bestimmen, und ihre Breite über der des Vorwissens:&lt;/span&gt;&lt;/p&gt;&lt;ul&gt;</translation>
     </message>
     <message>
         <source>%1 for %2 residuals; %3 % of the photograph explained (%4 % at the start), %5 % outliers, errors widened × %6</source>
-        <translation type="unfinished"></translation>
+        <translation>%1 bei %2 Resten; %3 % der Aufnahme erklärt (%4 % zu Beginn), %5 % Ausreißer, Fehler erweitert × %6</translation>
     </message>
     <message>
         <source>The photograph that would help most:</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Aufnahme, die am meisten helfen würde:</translation>
     </message>
     <message>
         <source>light at %1°: %2 from ± %3 to ± %4 %5</source>
-        <translation type="unfinished"></translation>
+        <translation>Licht bei %1°: %2 von ± %3 auf ± %4 %5</translation>
     </message>
     <message>
         <source>Time</source>
-        <translation type="unfinished"></translation>
+        <translation>Zeit</translation>
     </message>
     <message>
         <source>%1 s, %2 iterations</source>
-        <translation type="unfinished"></translation>
+        <translation>%1 s, %2 Schritte</translation>
     </message>
     <message>
         <source>Profiles</source>
-        <translation type="unfinished"></translation>
+        <translation>Profile</translation>
     </message>
     <message>
         <source>Intervals by profile likelihood and bootstrap</source>
-        <translation type="unfinished"></translation>
+        <translation>Intervalle nach Profil-Likelihood und Bootstrap</translation>
     </message>
 </context>
 <context>
     <name>ghostlight::FitVariables</name>
     <message>
         <source>What varies</source>
-        <translation type="unfinished"></translation>
+        <translation>Was variiert</translation>
     </message>
     <message>
         <source>Ghosts</source>
@@ -3365,39 +3476,39 @@ Was dabei entsteht, ist eine eigene Stellung; Rückgängig nimmt sie wieder weg.
     </message>
     <message>
         <source>Which ghosts count, and what the fit made of each</source>
-        <translation type="unfinished"></translation>
+        <translation>Welche Reflexe zählen, und was die Anpassung aus jedem machte</translation>
     </message>
     <message>
         <source>change what a fit varies</source>
-        <translation type="unfinished"></translation>
+        <translation>ändern, was eine Anpassung variiert</translation>
     </message>
     <message>
         <source>All coatings</source>
-        <translation type="unfinished"></translation>
+        <translation>Alle Vergütungen</translation>
     </message>
     <message>
         <source>Vary the centre wavelength, or the constant reflectance, of every coated surface</source>
-        <translation type="unfinished"></translation>
+        <translation>Die mittlere Wellenlänge, oder den festen Reflexionsgrad, jeder vergüteten Fläche variieren</translation>
     </message>
     <message>
         <source>Marked</source>
-        <translation type="unfinished"></translation>
+        <translation>Markierte</translation>
     </message>
     <message>
         <source>Vary what is marked V in the prescription (Ctrl+M there)</source>
-        <translation type="unfinished"></translation>
+        <translation>Variieren, was in den Objektivdaten mit V markiert ist (dort Strg+M)</translation>
     </message>
     <message>
         <source>KIND@ROWS[=LOWER..UPPER][~PRIOR]; KIND: center, thickness, layer.N, layer-index.N, reflectance, radius, gap, index, semi-diameter, and stop-size, stop-x, stop-y, stop-rotation without rows; ROWS: 3, 2+5 (one common value), all</source>
-        <translation type="unfinished"></translation>
+        <translation>ART@ZEILEN[=UNTEN..OBEN][~VORWISSEN]; ART: center, thickness, layer.N, layer-index.N, reflectance, radius, gap, index, semi-diameter, und stop-size, stop-x, stop-y, stop-rotation ohne Zeilen; ZEILEN: 3, 2+5 (ein gemeinsamer Wert), all</translation>
     </message>
     <message>
         <source>Add</source>
-        <translation type="unfinished"></translation>
+        <translation>Hinzufügen</translation>
     </message>
     <message>
         <source>Vary this too</source>
-        <translation type="unfinished"></translation>
+        <translation>Auch das variieren</translation>
     </message>
     <message>
         <source>Remove</source>
@@ -3405,83 +3516,83 @@ Was dabei entsteht, ist eine eigene Stellung; Rückgängig nimmt sie wieder weg.
     </message>
     <message>
         <source>Take the chosen rows out</source>
-        <translation type="unfinished"></translation>
+        <translation>Die gewählten Zeilen herausnehmen</translation>
     </message>
     <message>
         <source>Profile</source>
-        <translation type="unfinished"></translation>
+        <translation>Profil</translation>
     </message>
     <message>
         <source>How χ² rises as the chosen numbers move, all others fitted to each: intervals that need not be symmetric; takes longer. Again: not any more</source>
-        <translation type="unfinished"></translation>
+        <translation>Wie χ² steigt, wenn sich die gewählten Zahlen bewegen und alle anderen jeweils angepasst werden: Intervalle, die nicht symmetrisch sein müssen; dauert länger. Nochmals: nicht mehr</translation>
     </message>
     <message>
         <source>vary %1</source>
-        <translation type="unfinished"></translation>
+        <translation>%1 variieren</translation>
     </message>
     <message>
         <source>vary less</source>
-        <translation type="unfinished"></translation>
+        <translation>weniger variieren</translation>
     </message>
     <message>
         <source>Of the light: D65, A, E, LED, sodium, 3200 K, 550 nm …</source>
-        <translation type="unfinished"></translation>
+        <translation>Des Lichts: D65, A, E, LED, sodium, 3200 K, 550 nm …</translation>
     </message>
     <message>
         <source>How far samples count that the model cannot explain, such as dust or a lamp beside it</source>
-        <translation type="unfinished"></translation>
+        <translation>Wie viel Stichproben zählen, die das Modell nicht erklären kann, etwa Staub oder eine Lampe daneben</translation>
     </message>
     <message>
         <source>Least squares</source>
-        <translation type="unfinished"></translation>
+        <translation>Kleinste Quadrate</translation>
     </message>
     <message>
         <source>Every sample counts by its square</source>
-        <translation type="unfinished"></translation>
+        <translation>Jede Stichprobe zählt mit ihrem Quadrat</translation>
     </message>
     <message>
         <source>Huber</source>
-        <translation type="unfinished"></translation>
+        <translation>Huber</translation>
     </message>
     <message>
         <source>Linear beyond the scale</source>
-        <translation type="unfinished"></translation>
+        <translation>Linear jenseits der Skala</translation>
     </message>
     <message>
         <source>Cauchy</source>
-        <translation type="unfinished"></translation>
+        <translation>Cauchy</translation>
     </message>
     <message>
         <source>Logarithmic beyond the scale</source>
-        <translation type="unfinished"></translation>
+        <translation>Logarithmisch jenseits der Skala</translation>
     </message>
     <message>
         <source>Tukey</source>
-        <translation type="unfinished"></translation>
+        <translation>Tukey</translation>
     </message>
     <message>
         <source>Nothing beyond the scale</source>
-        <translation type="unfinished"></translation>
+        <translation>Nichts jenseits der Skala</translation>
     </message>
     <message>
         <source>The loss&apos;s scale, standard deviations of a sample</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Skala der Verlustfunktion, Standardabweichungen einer Stichprobe</translation>
     </message>
     <message>
         <source>Exposures of one scene</source>
-        <translation type="unfinished"></translation>
+        <translation>Belichtungen einer Szene</translation>
     </message>
     <message>
         <source>Merge the photographs by their exposure times before the fit, each value weighted by the inverse of its variance</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Aufnahmen vor der Anpassung nach ihren Belichtungszeiten vereinen, jeder Wert mit dem Kehrwert seiner Varianz gewichtet</translation>
     </message>
     <message>
         <source>Suggest the next</source>
-        <translation type="unfinished"></translation>
+        <translation>Nächste vorschlagen</translation>
     </message>
     <message>
         <source>Which photograph would help most: tries other angles of the light in the model; takes longer</source>
-        <translation type="unfinished"></translation>
+        <translation>Welche Aufnahme am meisten helfen würde: versucht andere Winkel des Lichts im Modell; dauert länger</translation>
     </message>
     <message>
         <source>Spectrum</source>
@@ -3489,83 +3600,83 @@ Was dabei entsteht, ist eine eigene Stellung; Rückgängig nimmt sie wieder weg.
     </message>
     <message>
         <source>Loss</source>
-        <translation type="unfinished"></translation>
+        <translation>Verlust</translation>
     </message>
     <message>
         <source>none</source>
-        <translation type="unfinished"></translation>
+        <translation>keiner</translation>
     </message>
     <message>
         <source>Fits to so many photographs drawn from the fitted model and its errors; takes longer</source>
-        <translation type="unfinished"></translation>
+        <translation>Anpassungen an so viele Aufnahmen, gezogen aus dem angepassten Modell und seinen Fehlern; dauert länger</translation>
     </message>
     <message>
         <source>Bootstrap</source>
-        <translation type="unfinished"></translation>
+        <translation>Bootstrap</translation>
     </message>
     <message>
         <source>change the fit&apos;s bootstrap</source>
-        <translation type="unfinished"></translation>
+        <translation>Bootstrap der Anpassung ändern</translation>
     </message>
     <message>
         <source>change the fit&apos;s spectrum</source>
-        <translation type="unfinished"></translation>
+        <translation>Spektrum der Anpassung ändern</translation>
     </message>
     <message>
         <source>change the fit&apos;s loss</source>
-        <translation type="unfinished"></translation>
+        <translation>Verlustfunktion der Anpassung ändern</translation>
     </message>
     <message>
         <source>change the loss&apos;s scale</source>
-        <translation type="unfinished"></translation>
+        <translation>Skala der Verlustfunktion ändern</translation>
     </message>
     <message>
         <source>the loss&apos;s scale cannot be taken</source>
-        <translation type="unfinished"></translation>
+        <translation>diese Skala der Verlustfunktion geht nicht</translation>
     </message>
     <message>
         <source>standard deviations above 0</source>
-        <translation type="unfinished"></translation>
+        <translation>Standardabweichungen über 0</translation>
     </message>
     <message>
         <source>merge exposures</source>
-        <translation type="unfinished"></translation>
+        <translation>Belichtungen vereinen</translation>
     </message>
     <message>
         <source>keep exposures apart</source>
-        <translation type="unfinished"></translation>
+        <translation>Belichtungen getrennt lassen</translation>
     </message>
     <message>
         <source>suggest photographs</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufnahmen vorschlagen</translation>
     </message>
     <message>
         <source>suggest no photographs</source>
-        <translation type="unfinished"></translation>
+        <translation>keine Aufnahmen vorschlagen</translation>
     </message>
     <message>
         <source>no surface of this lens has a quarter-wave layer or a constant reflectance; vary thickness@all of layer stacks, or coat it first</source>
-        <translation type="unfinished"></translation>
+        <translation>keine Fläche dieses Objektivs hat eine Viertelwellenschicht oder einen festen Reflexionsgrad; bei Schichtstapeln thickness@all variieren, oder erst vergüten</translation>
     </message>
     <message>
         <source>vary all coatings</source>
-        <translation type="unfinished"></translation>
+        <translation>alle Vergütungen variieren</translation>
     </message>
     <message>
         <source>nothing is marked; choose a cell of the prescription and press Ctrl+M</source>
-        <translation type="unfinished"></translation>
+        <translation>nichts ist markiert; eine Zelle der Objektivdaten wählen und Strg+M drücken</translation>
     </message>
     <message>
         <source>vary what is marked</source>
-        <translation type="unfinished"></translation>
+        <translation>variieren, was markiert ist</translation>
     </message>
     <message>
         <source>want no profile</source>
-        <translation type="unfinished"></translation>
+        <translation>kein Profil verlangen</translation>
     </message>
     <message>
         <source>want a profile</source>
-        <translation type="unfinished"></translation>
+        <translation>ein Profil verlangen</translation>
     </message>
 </context>
 <context>
@@ -4051,7 +4162,11 @@ Gläser zuerst kommen</translation>
     </message>
     <message>
         <source>Ringing</source>
-        <translation type="unfinished"></translation>
+        <translation>Ringe</translation>
+    </message>
+    <message>
+        <source>Shown</source>
+        <translation>Gezeigt</translation>
     </message>
 </context>
 <context>
@@ -4242,7 +4357,7 @@ Eine Objektivdatei öffnen, oder eine auf das Fenster ziehen.</translation>
     </message>
     <message>
         <source>D65, A, E, LED-B3, sodium, a black body (5500 K), one wavelength (587.5618 nm), or a table (the name of a .csv file with wavelength and power)</source>
-        <translation type="unfinished"></translation>
+        <translation>D65, A, E, LED-B3, sodium, ein schwarzer Körper (5500 K), eine Wellenlänge (587.5618 nm), oder eine Tabelle (der Name einer .csv-Datei mit Wellenlänge und Leistung)</translation>
     </message>
     <message>
         <source>Size</source>
@@ -4250,7 +4365,7 @@ Eine Objektivdatei öffnen, oder eine auf das Fenster ziehen.</translation>
     </message>
     <message>
         <source>point, sun (a disc of 0.533°), disc DEG, or picture FILE DEG (its width), up to 20°</source>
-        <translation type="unfinished"></translation>
+        <translation>point, sun (eine Scheibe von 0.533°), disc GRAD, oder picture DATEI GRAD (ihre Breite), bis 20°</translation>
     </message>
     <message>
         <source>Intensity</source>
@@ -4270,7 +4385,7 @@ Eine Objektivdatei öffnen, oder eine auf das Fenster ziehen.</translation>
     </message>
     <message>
         <source>Ghosts of the least irradiance go into the veil, up to this share of the ghosts&apos; light, while the layer Veil is on.</source>
-        <translation type="unfinished"></translation>
+        <translation>Reflexe der geringsten Bestrahlungsstärke gehen in den Schleier, bis zu diesem Anteil ihres Lichts, solange die Ebene Schleier an ist.</translation>
     </message>
     <message>
         <source>Kernel</source>
@@ -4667,15 +4782,15 @@ zurück, und das Ziehen ist ein Schritt der Geschichte. Pfeiltasten gehen um ein
     <name>ghostlight::PlanPage</name>
     <message>
         <source>nothing</source>
-        <translation type="unfinished"></translation>
+        <translation>nichts</translation>
     </message>
     <message>
         <source>Measure the true error</source>
-        <translation type="unfinished"></translation>
+        <translation>Den wahren Fehler messen</translation>
     </message>
     <message>
         <source>Not computed</source>
-        <translation type="unfinished"></translation>
+        <translation>Nicht berechnet</translation>
     </message>
     <message>
         <source>Ghosts</source>
@@ -4683,55 +4798,55 @@ zurück, und das Ziehen ist ein Schritt der Geschichte. Pfeiltasten gehen um ein
     </message>
     <message>
         <source>Known</source>
-        <translation type="unfinished"></translation>
+        <translation>Bekannt</translation>
     </message>
     <message>
         <source>Why</source>
-        <translation type="unfinished"></translation>
+        <translation>Warum</translation>
     </message>
     <message>
         <source>Draws the reference to a tenth of the picture&apos;s tolerance; takes from seconds to minutes</source>
-        <translation type="unfinished"></translation>
+        <translation>Zeichnet die Referenz auf ein Zehntel der Toleranz des Bilds; dauert Sekunden bis Minuten</translation>
     </message>
     <message>
         <source>proven</source>
-        <translation type="unfinished"></translation>
+        <translation>bewiesen</translation>
     </message>
     <message>
         <source>estimated</source>
-        <translation type="unfinished"></translation>
+        <translation>geschätzt</translation>
     </message>
     <message>
         <source>Measuring against the reference, %1 %</source>
-        <translation type="unfinished"></translation>
+        <translation>Wird gegen die Referenz gemessen, %1 %</translation>
     </message>
     <message>
         <source>All of these: at most %1.</source>
-        <translation type="unfinished"></translation>
+        <translation>Alles zusammen: höchstens %1.</translation>
     </message>
     <message>
         <source> The true error is %1, by a reference whose two samplings differ by %2.</source>
-        <translation type="unfinished"></translation>
+        <translation> Der wahre Fehler ist %1, nach einer Referenz, deren zwei Abtastungen sich um %2 unterscheiden.</translation>
     </message>
     <message>
         <source>Changes</source>
-        <translation type="unfinished"></translation>
+        <translation>Ändert</translation>
     </message>
     <message>
         <source>What it can change of the picture: L1 over the light on the sensor. ≤ at most, by a proof; ≈ by the plan&apos;s own estimate, good to a factor of two</source>
-        <translation type="unfinished"></translation>
+        <translation>Was es am Bild ändern kann: L1 über dem Licht auf dem Sensor. ≤ höchstens, bewiesen; ≈ nach der Schätzung des Plans selbst, auf einen Faktor zwei gut</translation>
     </message>
     <message>
         <source>All of these: at most %1 proven, and about %2 estimated (good to a factor of two).</source>
-        <translation type="unfinished"></translation>
+        <translation>Alles zusammen: höchstens %1 bewiesen, und etwa %2 geschätzt (auf einen Faktor zwei gut).</translation>
     </message>
     <message>
         <source>All of these: about %1, estimated (good to a factor of two).</source>
-        <translation type="unfinished"></translation>
+        <translation>Alles zusammen: etwa %1, geschätzt (auf einen Faktor zwei gut).</translation>
     </message>
     <message>
         <source> Rows with – are not in it.</source>
-        <translation type="unfinished"></translation>
+        <translation> Zeilen mit – sind nicht darin.</translation>
     </message>
 </context>
 <context>
@@ -5465,10 +5580,6 @@ curvature N, thickness N, semi-diameter N, coating N (ein Faktor auf die Schicht
         <translation>&apos;%1&apos; Punkte: erwartet 2 bis %2</translation>
     </message>
     <message>
-        <source>Stop</source>
-        <translation>Blende</translation>
-    </message>
-    <message>
         <source>%1 of %2</source>
         <translation>%1 von %2</translation>
     </message>
@@ -5496,6 +5607,11 @@ curvature N, thickness N, semi-diameter N, coating N (ein Faktor auf die Schicht
         <source>Tables (*.csv)</source>
         <translation>Tabellen (*.csv)</translation>
     </message>
+    <message>
+        <source>Stop</source>
+        <comment>the sweep</comment>
+        <translation>Anhalten</translation>
+    </message>
 </context>
 <context>
     <name>ghostlight::SweepView</name>
@@ -5520,6 +5636,14 @@ Oben benennen und Durchlauf drücken.</translation>
     <message>
         <source>%1   worst at %2%3</source>
         <translation>%1   am schlimmsten bei %2%3</translation>
+    </message>
+    <message>
+        <source>Flares and curves of the sweep</source>
+        <translation>Reflexbilder und Kurven des Durchlaufs</translation>
+    </message>
+    <message>
+        <source>A click takes a flare&apos;s value, or chooses a curve&apos;s ghost. Keys: ← → go from flare to flare, Return takes its value, ↑ ↓ choose a curve</source>
+        <translation>Ein Klick nimmt den Wert eines Reflexbilds, oder wählt den Reflex einer Kurve. Tasten: ← → gehen von Bild zu Bild, Eingabe nimmt den Wert, ↑ ↓ wählen eine Kurve</translation>
     </message>
 </context>
 <context>

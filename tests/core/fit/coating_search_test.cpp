@@ -86,7 +86,7 @@ TEST(CoatingSearch, ExchangedCoatingsAreFoundTheirPlaces) {
     x[0] = (490.0 - 610.0) / kit.layout.coatings[0].prior;
     x[1] = -x[0];
     const FitMinimum from{.x = x, .log_gains = {0.0}, .cost = 0.0};
-    const auto found = search.explore(from, 1e9, {}, [] {});
+    const auto found = search.explore(from, 1e9, {}, [](const FitMinimum&) {});
     ASSERT_FALSE(found.empty());
     // The prior's middle is the truth, so that nothing pulls away from it: within a nanometre.
     for (std::size_t p = 0; p < 2; ++p)
@@ -97,7 +97,7 @@ TEST(CoatingSearch, ExchangedCoatingsAreFoundTheirPlaces) {
         EXPECT_FALSE(search.alike(found[k].x, found.front().x));
     }
     CoatingSearch alone(kit.layout, kit.views, *kit.weights, FitLoss::none, 1.0, 1);
-    EXPECT_EQ(alone.explore(from, 1e9, {}, [] {}).front().x, found.front().x);
+    EXPECT_EQ(alone.explore(from, 1e9, {}, [](const FitMinimum&) {}).front().x, found.front().x);
 }
 
 }  // namespace
