@@ -1793,6 +1793,13 @@ Das Farbfeld zeigt die gespiegelte Farbe unter dem gewählten Licht.</translatio
     </message>
 </context>
 <context>
+    <name>StopPanel</name>
+    <message>
+        <source> · %1 % clear</source>
+        <translation> · %1 % frei</translation>
+    </message>
+</context>
+<context>
     <name>StopStatistics</name>
     <message numerus="yes">
         <source>%n arm(s) of the starburst</source>
@@ -1823,6 +1830,10 @@ Das Farbfeld zeigt die gespiegelte Farbe unter dem gewählten Licht.</translatio
     <message>
         <source>%1 % of the light passes</source>
         <translation>%1 % des Lichts kommen durch</translation>
+    </message>
+    <message>
+        <source>with an image, ghosts are drawn by the uniform method, whose error is not estimated</source>
+        <translation>mit einem Bild werden Geisterbilder nach dem Verfahren uniform gezeichnet, dessen Fehler nicht geschätzt wird</translation>
     </message>
 </context>
 <context>
@@ -2861,6 +2872,10 @@ Was dabei entsteht, ist eine eigene Stellung; Rückgängig nimmt sie wieder weg.
         <source>waiting for the last one to stop</source>
         <translation>wartet, bis die vorige angehalten hat</translation>
     </message>
+    <message>
+        <source>vary what is there</source>
+        <translation>freizugeben, was da ist</translation>
+    </message>
 </context>
 <context>
     <name>ghostlight::FitParameterModel</name>
@@ -3678,6 +3693,38 @@ Was dabei entsteht, ist eine eigene Stellung; Rückgängig nimmt sie wieder weg.
         <source>want a profile</source>
         <translation>ein Profil verlangen</translation>
     </message>
+    <message>
+        <source>as listed; or none, qw:550, v-coat</source>
+        <translation>wie aufgeführt; oder none, qw:550, v-coat</translation>
+    </message>
+    <message>
+        <source>Kinds of coating to choose from on each surface, besides the listed one: none, qw:NM[:INDEX], names of the coating library, separated by commas; takes longer</source>
+        <translation>Vergütungsarten, aus denen außer der aufgeführten auf jeder Fläche gewählt wird: none, qw:NM[:INDEX], Namen der Vergütungsbibliothek, durch Kommas getrennt; dauert länger</translation>
+    </message>
+    <message>
+        <source>all varied</source>
+        <translation>alle freigegebenen</translation>
+    </message>
+    <message>
+        <source>Surfaces whose kind is chosen, separated by commas; empty: those whose coating is varied</source>
+        <translation>Flächen, deren Art gewählt wird, durch Kommas getrennt; leer: die, deren Vergütung freigegeben ist</translation>
+    </message>
+    <message>
+        <source>Kinds of coating</source>
+        <translation>Vergütungsarten</translation>
+    </message>
+    <message>
+        <source>on surfaces</source>
+        <translation>auf den Flächen</translation>
+    </message>
+    <message>
+        <source>change kinds of coating</source>
+        <translation>Vergütungsarten ändern</translation>
+    </message>
+    <message>
+        <source>change where kinds are chosen</source>
+        <translation>ändern, wo Arten gewählt werden</translation>
+    </message>
 </context>
 <context>
     <name>ghostlight::FlarePanel</name>
@@ -3829,6 +3876,18 @@ verbunden durch &apos;and&apos; oder ein Komma, &apos;or&apos; und &apos;not&apo
     <message>
         <source> · of the last lens that could be traced</source>
         <translation> · des letzten Objektivs, das sich verfolgen ließ</translation>
+    </message>
+    <message>
+        <source> · without the stop&apos;s dirt</source>
+        <translation> · ohne den Schmutz der Blende</translation>
+    </message>
+    <message>
+        <source>Ghosts are listed, and but for those near focus drawn, as through a clean stop: what its
+dirt takes of one depends on where its beam meets the stop. Of the direct light the Stop
+panel says how much passes; three crossings take about three times as much as one.</source>
+        <translation>Geisterbilder sind wie durch eine saubere Blende aufgeführt und, außer nahe dem Fokus, gezeichnet:
+Was ihr Schmutz einem nimmt, hängt davon ab, wo sein Bündel die Blende trifft. Wie viel vom direkten
+Licht durchgeht, sagt das Blendenfeld; drei Durchgänge nehmen etwa dreimal so viel wie einer.</translation>
     </message>
 </context>
 <context>
@@ -5266,6 +5325,22 @@ Die Schranke von %3 der %4 Reflexe liegt in ihrem Anteil an 0.1 %; für die ande
         <source>as on file</source>
         <translation>wie in der Datei</translation>
     </message>
+    <message>
+        <source>the stop has an image</source>
+        <translation>die Blende hat ein Bild</translation>
+    </message>
+    <message>
+        <source>the sensor reflects, and the light is not above or below the axis</source>
+        <translation>der Sensor reflektiert, und das Licht steht nicht über oder unter der Achse</translation>
+    </message>
+    <message>
+        <source>*uniform* method, error not estimated: %1</source>
+        <translation>Verfahren *uniform*, Fehler nicht geschätzt: %1</translation>
+    </message>
+    <message>
+        <source>Every ghost on an even grid, as fine as its map asks for. Only the planned method estimates the picture&apos;s error.</source>
+        <translation>Jedes Geisterbild auf gleichmäßigem Gitter, so fein, wie seine Abbildung es verlangt. Nur das geplante Verfahren schätzt den Fehler des Bildes.</translation>
+    </message>
 </context>
 <context>
     <name>ghostlight::StopPanel</name>
@@ -5502,10 +5577,6 @@ Den Namen seitwärts ziehen ändert den Wert; Pfeiltasten gehen in Stufen.</tran
     <message>
         <source>change the stop&apos;s %1</source>
         <translation>%1 der Blende ändern</translation>
-    </message>
-    <message>
-        <source> · %1 % clear</source>
-        <translation> · %1 % frei</translation>
     </message>
 </context>
 <context>
