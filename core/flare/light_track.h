@@ -11,7 +11,7 @@ namespace ghostlight {
 struct LightBlob {
     double x_px = 0.0, y_px = 0.0;  ///< centroid of its excess
     std::array<double, 3>
-        excess{};  ///< Σ over its pixels of what is above the threshold, by channel
+        excess{};            ///< Σ over its pixels of what is above the threshold, by channel
     std::size_t pixels = 0;  ///< that it has
     double luminance() const {
         return 0.2126 * excess[0] + 0.7152 * excess[1] + 0.0722 * excess[2];
