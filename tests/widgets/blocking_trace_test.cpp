@@ -105,8 +105,14 @@ TEST(BlockingTrace, LeavesOutHandlersThatRunALoopButNotWhatIsSlowInIt) {
 }
 
 /// Not a test of times, which are the machine's: a walk through the window that tells what blocks
-/// it in every step. Run it alone on a machine at rest.
+/// it in every step. It takes minutes, alone on a machine at rest, and is run where
+/// GHOSTLIGHT_TRACE_BLOCKING asks for it.
 struct BlockingSlow : testing::Test {
+    void SetUp() override {
+        if (!qEnvironmentVariableIsSet("GHOSTLIGHT_TRACE_BLOCKING"))
+            GTEST_SKIP() << "GHOSTLIGHT_TRACE_BLOCKING is not set";
+    }
+
     void step(const char* name, const std::function<void()>& act) {
         Handler by_hand(act);  // what the window does at once counts as well
         by_hand.setObjectName(name);
