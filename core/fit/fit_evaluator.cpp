@@ -73,7 +73,7 @@ FitEvaluator::FitEvaluator(const FitLayout& layout, std::vector<FitView>& views,
 
 void FitEvaluator::set_weights(GhostWeights& weights) {
     weights_ = weights;
-    pictured_at_.clear();
+    pictured_at_.reset();
 }
 
 std::vector<double> FitEvaluator::coating_values() const {
@@ -93,7 +93,7 @@ double FitEvaluator::gain(std::size_t photo, std::size_t channel) const {
 void FitEvaluator::picture(bool slopes) {
     const std::vector<double> values = coating_values();
     if (values == pictured_at_ && (pictured_slopes_ || !slopes)) return;
-    pictured_at_.clear();
+    pictured_at_.reset();
     if (weights_.get().update(values, slopes, stop_))
         for (std::size_t i = 0; i < views_.size(); ++i)
             pictures_[i] = ghost_picture(views_[i].bases, weights_.get(), views_[i].data.frame,

@@ -3,6 +3,7 @@
 #include <ceres/ceres.h>
 
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <utility>
 #include <vector>
@@ -101,7 +102,8 @@ class FitEvaluator final : public ceres::EvaluationCallback {
     unsigned threads_;
     std::vector<std::vector<double>> residuals_, jacobians_, models_;
     std::vector<ModelPicture> pictures_;
-    std::vector<double> pictured_at_;
+    /// Coatings: a model without any to vary has a value, too.
+    std::optional<std::vector<double>> pictured_at_;
     bool pictured_slopes_ = false;
     std::stop_token stop_;
     bool stopped_ = false;

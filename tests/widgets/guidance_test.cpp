@@ -13,6 +13,7 @@
 #include <QSignalSpy>
 #include <QTableView>
 #include <QTemporaryDir>
+#include <QTest>
 #include <QToolButton>
 
 #include <set>
@@ -224,12 +225,24 @@ TEST(Looks, WhatIsThereHasRoomForLargerLetters) {
                       header.model()->headerData(column, Qt::Horizontal).toString()));
     }
     // That of the ghosts has the name as well.
-    for (const QFrame* strip : window.findChildren<QFrame*>("layers_strip")) {
-        for (const QToolButton* button : strip->findChildren<QToolButton*>()) {
-            EXPECT_TRUE(!button->isVisible() || button->width() >= button->sizeHint().width())
-                << qPrintable(button->text());
+    QStringList cut_off;
+    const auto nothing_is_cut_off = [&] {
+        cut_off.clear();
+        for (const QFrame* strip : window.findChildren<QFrame*>("layers_strip")) {
+            for (const QToolButton* button : strip->findChildren<QToolButton*>()) {
+                if (button->isVisible() && button->width() < button->sizeHint().width()) {
+                    cut_off << QString("%1: %2 px of %3")
+                                   .arg(button->text())
+                                   .arg(button->width())
+                                   .arg(button->sizeHint().width());
+                }
+            }
         }
-    }
+        return cut_off.isEmpty();
+    };
+    constexpr int laid_out_after_ms = 3000;
+    EXPECT_TRUE(QTest::qWaitFor(nothing_is_cut_off, laid_out_after_ms))
+        << qPrintable(cut_off.join(", "));
     apply_theme(*qApp, Theme::dark);
 }
 
