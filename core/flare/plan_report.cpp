@@ -6,6 +6,7 @@
 
 #include "core/flare/diffraction_omissions.h"
 #include "core/flare/picture_errors.h"
+#include "core/flare/probe_all.h"
 #include "core/flare/reference_image.h"
 
 namespace ghostlight {
@@ -31,12 +32,22 @@ OfFate sum_of(const FlarePlan& plan, const PlanProof* proof, GhostFate fate) {
     return sum;
 }
 
+/// What the estimates of all drawn ghosts may come to in the worst case: as they are for each,
+/// without what they are taken to make up for each other.
+double most_doubt(const FlarePlan& plan) {
+    std::vector<double> fluxes_mm2;
+    for (const PlannedGhost& ghost : plan.ghosts)
+        if (ghost.fate == GhostFate::drawn) fluxes_mm2.push_back(ghost.flux_mm2);
+    return doubt * made_up(fluxes_mm2);
+}
+
 }  // namespace
 
 double bounded_error(const FlarePlan& plan) {
     const double light_mm2 = plan.flux_mm2 + plan.folded_mm2;
     if (!(light_mm2 > 0.0)) return 0.0;
-    return (plan.left_out_mm2 + 2.0 * plan.folded_mm2 + doubt * plan.error_mm2) / light_mm2;
+    return (plan.left_out_mm2 + 2.0 * plan.folded_mm2 + most_doubt(plan) * plan.error_mm2) /
+           light_mm2;
 }
 
 PlanReport plan_report(const FlareScene& scene, const FlareRequest& request, const FlarePlan& plan,
@@ -72,7 +83,7 @@ PlanReport plan_report(const FlareScene& scene, const FlareRequest& request, con
     add("half of each beam", "the lens is round: it is the mirror image", drawn.ghosts, 0.0, true);
     add("rays and pixels beyond the tolerance",
         "each ghost's grid and size of picture are as coarse as its share of the error allows",
-        drawn.ghosts, doubt * drawn.error_mm2, false);
+        drawn.ghosts, most_doubt(plan) * drawn.error_mm2, false);
     const auto small =
         static_cast<std::size_t>(std::ranges::count_if(plan.ghosts, [](const PlannedGhost& ghost) {
             return ghost.fate == GhostFate::drawn && ghost.level > 0;

@@ -59,17 +59,11 @@ double granted_share(double tolerance) {
     return granted.back().share;
 }
 
-/// Errors of ghosts that lie over each other make up for each other in part, the more of them there
-/// are: as a root, from `few` ghosts of equal light on, `most` at the utmost. Calibrated likewise.
 double made_up(const std::vector<ProbedGhost>& ghosts) {
-    constexpr double few = 25.0, most = 1.6;
-    double sum = 0.0, squares = 0.0;
-    for (const ProbedGhost& ghost : ghosts) {
-        if (ghost.planned.fate != GhostFate::drawn) continue;
-        sum += ghost.planned.flux_mm2;
-        squares += ghost.planned.flux_mm2 * ghost.planned.flux_mm2;
-    }
-    return squares > 0.0 ? std::clamp(std::sqrt(sum * sum / squares / few), 1.0, most) : 1.0;
+    std::vector<double> fluxes_mm2;
+    for (const ProbedGhost& ghost : ghosts)
+        if (ghost.planned.fate == GhostFate::drawn) fluxes_mm2.push_back(ghost.planned.flux_mm2);
+    return ghostlight::made_up(fluxes_mm2);
 }
 
 void share_among(std::vector<ProbedGhost>& ghosts, double tolerance) {
@@ -91,6 +85,17 @@ void share_among(std::vector<ProbedGhost>& ghosts, double tolerance) {
 }
 
 }  // namespace
+
+double made_up(const std::vector<double>& fluxes_mm2) {
+    // As a root, from so many ghosts of equal light on. Calibrated like `granted`.
+    constexpr double few = 25.0, most = 1.6;
+    double sum = 0.0, squares = 0.0;
+    for (const double flux : fluxes_mm2) {
+        sum += flux;
+        squares += flux * flux;
+    }
+    return squares > 0.0 ? std::clamp(std::sqrt(sum * sum / squares / few), 1.0, most) : 1.0;
+}
 
 std::optional<std::vector<ProbedGhost>> probe_all(const FlareScene& scene,
                                                   const GhostPlanner& planner,

@@ -21,4 +21,9 @@ std::optional<std::vector<ProbedGhost>> probe_all(const FlareScene& scene,
 FlarePlan plan_of(const FlareScene& scene, const FlareRequest& request,
                   std::vector<ProbedGhost>& ghosts);
 
+/// Errors of ghosts that lie over each other make up for each other in part, the more of them share
+/// the light: what their sum may be over what it is taken for, 1 for few ghosts. `fluxes_mm2` of
+/// those that are drawn.
+double made_up(const std::vector<double>& fluxes_mm2);
+
 }  // namespace ghostlight
