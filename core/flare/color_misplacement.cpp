@@ -7,16 +7,16 @@
 
 #include "core/flare/color_mesh.h"
 #include "core/flare/color_raster.h"
+#include "core/flare/flare_scene.h"
 #include "core/flare/ghost_measures.h"
 
 namespace ghostlight {
 namespace {
 
 constexpr int window_px = 40;  ///< of the small pictures, each way
-/// Of half the range in 1/λ², the outer geometry wavelengths (flare_scene.cpp). An even spectrum
-/// leaves half of its range in error, which is this much of the outer ones' mean distance.
-constexpr double outer_node = 0.866;
-constexpr double even_spectrum = 0.5 / outer_node;
+/// An even spectrum leaves half of its range in error, which is this much of the mean distance of
+/// the outer geometry wavelengths.
+constexpr double even_spectrum = 0.5 / outer_geometry_node;
 /// Of the sum over ghosts, what is left in their picture: colours come apart in all directions, and
 /// what one ghost puts in the wrong place another takes away. Calibrated on the bundled lenses.
 constexpr double left_in_sum = 0.35;
@@ -87,7 +87,7 @@ double picture_distance(const MeshNodes& first, const MeshNodes& second, const P
 }
 
 double ColorMisplacement::error(int bands) const {
-    const double step_px = shift_px / outer_node / bands;
+    const double step_px = shift_px / outer_geometry_node / bands;
     const double seen = shift_px > 0.0 ? step_px / (step_px + 1.0) : 1.0;
     return left_in_sum * even_spectrum * distance / bands * seen;
 }

@@ -12,9 +12,7 @@ namespace ghostlight {
 namespace {
 
 constexpr double shortest_nm = 400.0, longest_nm = 700.0;
-/// Of half the range in 1/λ², from its middle: Chebyshev's outer two of three nodes.
-constexpr double outer_node = 0.8660254037844386;
-/// The same, for how far the light's mean may take the third.
+/// Of half the range in 1/λ², from its middle, for how far the light's mean may take the third.
 constexpr double most_inner = 0.5;
 
 double inverse_square(double nm) { return 1.0 / (nm * nm); }
@@ -38,8 +36,8 @@ std::vector<double> geometry_wavelengths_nm(const std::vector<SpectralSample>& s
     const double inner_nm = std::ranges::min_element(samples, {}, [&](const SpectralSample& s) {
                                 return std::abs(inverse_square(s.wavelength_nm) - mean);
                             })->wavelength_nm;
-    return {1.0 / std::sqrt(middle + half * outer_node), inner_nm,
-            1.0 / std::sqrt(middle - half * outer_node)};
+    return {1.0 / std::sqrt(middle + half * outer_geometry_node), inner_nm,
+            1.0 / std::sqrt(middle - half * outer_geometry_node)};
 }
 
 std::vector<double> node_shares(const std::vector<OpticalSystem>& geometry, double wavelength_nm) {

@@ -50,6 +50,9 @@ struct FlareScene {
     std::vector<double> interpolation(double wavelength_nm) const;
 };
 
+/// Of half the range in 1/λ², from its middle: Chebyshev's outer two of three nodes.
+inline constexpr double outer_geometry_node = 0.8660254037844386;
+
 /// Where a spectrum's geometry is traced: its one wavelength, or three in 1/λ², the outer ones
 /// Chebyshev's, the middle one the sample next to the mean of the light.
 std::vector<double> geometry_wavelengths_nm(const std::vector<SpectralSample>& samples);

@@ -155,12 +155,7 @@ void GhostPlanner::draw_band(const ProbedGhost& ghost, const GhostGrids& grids, 
                              ColorMesh<C>& mesh) const {
     const auto& [cells, bands, rough, polarised, split, own_colors, error_mm2, cells_wanted] =
         grids.fineness;
-    const bool own_light = !grids.weights.empty();
-    const MirrorGrid& weight_grid = own_light ? grids.main : ghost.grid;
     const std::vector<float> shares = channel_shares<C>(scene_, band, bands);
-    const std::vector<float> light =
-        ray_light<C>(scene_, weight_grid, own_light ? grids.weights : ghost.weights, shares);
-
     MeshNodes nodes;
     if (own_colors) {
         const OpticalSystem& system = scene_.at_band(band, bands);
@@ -187,7 +182,13 @@ void GhostPlanner::draw_band(const ProbedGhost& ghost, const GhostGrids& grids, 
         skip(grids.singular, nodes);
         draw_singular(ghost, cells, grids.singular, scene_.system(), shares, mesh);
     }
-    if (nodes.weights.empty()) interpolate(weight_grid, light, C, nodes.cells, nodes.weights);
+    if (nodes.weights.empty()) {
+        const bool own_light = !grids.weights.empty();
+        const MirrorGrid& grid = own_light ? grids.main : ghost.grid;
+        interpolate(grid,
+                    ray_light<C>(scene_, grid, own_light ? grids.weights : ghost.weights, shares),
+                    C, nodes.cells, nodes.weights);
+    }
     add_grid(nodes, placement_.frame(), mesh);
 }
 

@@ -16,9 +16,6 @@ constexpr std::size_t few_valid = 4;  ///< one of so many
 constexpr double least_error = 1e-3;  ///< of the light: more is looked at more closely
 /// Where films give hardly any light at one wavelength's angles, ratios mean nothing.
 constexpr float least_color_ratio = 0.25F, most_color_ratio = 4.0F;
-/// Where a table is coarser than what a ray's own weight is made of, such as beside total
-/// reflection.
-constexpr float most_off_table = 4.0F;
 constexpr double steeper_by_rad = 0.1;  ///< than the rays of a grid may be those between them
 
 /// Rays of a half grid that get through all clear radii, and their neighbours, valid or not.

@@ -67,8 +67,8 @@ std::optional<double> draw_by_bands(const GhostPlanner& planner, ProbedGhost& gh
     const GhostGrids grids = planner.lay_grids(ghost);
     planner.choose_level(grids, ghost);
     const auto bands = static_cast<std::size_t>(grids.fineness.bands);
-    const std::size_t at_once =
-        std::max<std::size_t>(1, most_cells_at_once * bands / planner.cells_to_draw(ghost));
+    const auto across = static_cast<std::size_t>(grids.fineness.cells);
+    const std::size_t at_once = std::max<std::size_t>(1, most_cells_at_once / (across * across));
     double flux_mm2 = 0.0;
     for (std::size_t first = 0; first < bands; first += at_once) {
         std::vector<DrawnGhost<C>> drawn(std::min(at_once, bands - first));

@@ -177,8 +177,7 @@ GhostProbe probe_ghost(const OpticalSystem& system, const TracePath<float>& path
             grid.half.keep_cosines = true;
             trace_mirrored(path, frame, Weights::none, grid);
             probe.rays += grid.half.size();
-            probe.served = still_serves(grid, keep_passing(whole, stop_radius_mm, probe), whole);
-            if (probe.served) return probe;
+            if (still_serves(grid, keep_passing(whole, stop_radius_mm, probe), whole)) return probe;
             grid.half.keep_cosines = false;
         }
         grid.box = widened(*nearby, whole, room_for_moves);

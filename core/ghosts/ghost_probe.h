@@ -11,7 +11,6 @@ struct GhostProbe {
     MirrorGrid grid;          ///< geometry and cosines
     std::size_t passing = 0;  ///< nodes of the full grid that pass, the stop taken as round
     PupilBox passing_box;     ///< of these nodes, with a cell to spare, within the entrance
-    bool served = false;      ///< the box of a beam nearby held
     std::size_t rays = 0;     ///< traced, the search included
     bool empty = false;       ///< nothing was found
 };

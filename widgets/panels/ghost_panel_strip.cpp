@@ -25,6 +25,11 @@ namespace {
 
 constexpr const char* look_of_button = "look";
 
+/// Hidden until somebody chooses: what is left is what most questions are about.
+QStringList usually_hidden() {
+    return {"incidence_1_deg", "incidence_2_deg", "x_extent_mm", "y_extent_mm"};
+}
+
 }  // namespace
 
 void GhostPanel::build_strip() {
@@ -150,9 +155,7 @@ void GhostPanel::read_filter() {
 }
 
 void GhostPanel::show_columns() {
-    // Until somebody chooses: what most questions are about.
-    const QStringList hidden = settings::hidden_ghost_columns().value_or(
-        QStringList{"incidence_1_deg", "incidence_2_deg", "x_extent_mm", "y_extent_mm"});
+    const QStringList hidden = settings::hidden_ghost_columns().value_or(usually_hidden());
     for (int column = GhostTableModel::flux; column < GhostTableModel::column_count; ++column) {
         const bool is_bar = column == GhostTableModel::magnitude;
         const QString id = is_bar ? QStringLiteral("bar") : column_id(column);
@@ -180,7 +183,7 @@ void GhostPanel::choose_columns() {
     }
     QStringList hidden;
     if (taken == usual) {
-        hidden = {"incidence_1_deg", "incidence_2_deg", "x_extent_mm", "y_extent_mm"};
+        hidden = usually_hidden();
     } else {
         for (const QAction* action : menu.actions()) {
             const int column = action->data().toInt();
